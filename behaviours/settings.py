@@ -1,0 +1,276 @@
+"""Every constant of the anticipation model, in one place: named, with its default, unit and section.
+
+The numbers are those of Hermens, *Anticipating Impacts* (2006); a section like 3.2.5 or a table is the thesis's, one like
+A4 is the project's specification, which settles what the thesis leaves open. A group is a NamedTuple of plain numbers, so
+that a kernel takes it whole. Radians inside; `override` also takes degrees, by the name with `_deg`:
+
+    settings = override(Settings(), {"block.reach_far_m": 0.8, "lean_turn.neck_deg": [50, 50, 65]})
+"""
+
+from __future__ import annotations
+
+from math import pi, radians
+from typing import Annotated, Any, NamedTuple, get_type_hints
+
+from engine.core.errors import BadInput
+
+
+class Constant(NamedTuple):
+    """What a field means: its unit, the section it comes from, and a sentence."""
+
+    unit: str
+    section: str
+    meaning: str
+
+
+Triple = tuple[float, float, float]
+
+
+def _xyz_deg(x: float, y: float, z: float) -> Triple:
+    """Greatest rotations about X, Y, Z, written in the degrees of table 3.2."""
+    return (radians(x), radians(y), radians(z))
+
+
+class Volleyball(NamedTuple):
+    """The ball of the thesis's examples (3.1), and what its speeds mean to the rules."""
+
+    radius_m: Annotated[float, Constant("m", "A1", "radius of a volleyball")] = 0.105
+    mass_kg: Annotated[float, Constant("kg", "A1", "mass of a volleyball")] = 0.27
+    speed_low_mps: Annotated[float, Constant("m/s", "3.1", "slowest spike: rule speed 0")] = 22.8
+    speed_high_mps: Annotated[float, Constant("m/s", "3.1", "fastest spike: rule speed 1")] = 29.7
+    size_low: Annotated[float, Constant("1", "3.2.1", "abstract size that sets the controls to 0")] = 0.0
+    size_high: Annotated[float, Constant("1", "3.2.1", "abstract size that sets the controls to 1")] = 1.0
+
+
+class LeanTurn(NamedTuple):
+    """Lean and turn away (3.2.2, 3.2.3): greatest rotations of the upper half of table 3.2."""
+
+    neck_rad: Annotated[Triple, Constant("rad", "table 3.2", "neck, about X, Y, Z")] = _xyz_deg(50, 50, 65)
+    back_rad: Annotated[Triple, Constant("rad", "table 3.2", "back")] = _xyz_deg(25, 25, 8)
+    waist_rad: Annotated[Triple, Constant("rad", "table 3.2", "waist")] = _xyz_deg(10, 10, 12)
+    pelvis_rad: Annotated[Triple, Constant("rad", "table 3.2", "pelvis")] = _xyz_deg(15, 15, 20)
+    back_share: Annotated[float, Constant("1", "3.2.3", "of the turn that the neck leaves over")] = 0.5
+    waist_share: Annotated[float, Constant("1", "3.2.3", "of the turn that the neck leaves over")] = 0.3
+    pelvis_share: Annotated[float, Constant("1", "3.2.3", "of the turn that the neck leaves over")] = 0.2
+    dead_ahead_rad: Annotated[float, Constant("rad", "A3.2", "azimuths below this keep the side last chosen")] = radians(2)
+
+
+class Recoil(NamedTuple):
+    """Recoil and startle (3.2.4, 3.2.6): greatest rotations of the lower half of table 3.2, as magnitudes."""
+
+    clavicle_rad: Annotated[Triple, Constant("rad", "table 3.2", "raises (X) and brings forward (Y)")] = _xyz_deg(35, 25, 0)
+    shoulder_rad: Annotated[Triple, Constant("rad", "table 3.2", "lifts the upper arm sideways (X)")] = _xyz_deg(30, 0, 0)
+    elbow_rad: Annotated[Triple, Constant("rad", "table 3.2", "flexes (Y)")] = _xyz_deg(0, 150, 0)
+
+
+class Block(NamedTuple):
+    """Block (3.2.5): where the palms go, and the elbows."""
+
+    reach_far_m: Annotated[float, Constant("m", "3.2.5", "palm from its own shoulder, control 0")] = 0.9
+    reach_near_m: Annotated[float, Constant("m", "3.2.5", "palm from its own shoulder, control 1")] = 0.3
+    arm_share: Annotated[float, Constant("1", "A3.4", "of the arm's length that the far reach may use")] = 0.97
+    clearance_m: Annotated[float, Constant("m", "A3.4", "palm from the target, along the line, at least")] = 0.20
+    offset_m: Annotated[float, Constant("m", "A3.4", "each palm to its own side of the line")] = 0.08
+    swivel_small_rad: Annotated[float, Constant("rad", "3.2.5", "elbow away from down, control 0")] = radians(70)
+    swivel_large_rad: Annotated[float, Constant("rad", "3.2.5", "elbow away from down, control 1")] = radians(10)
+    soften_m: Annotated[float, Constant("m", "A3.4", "width over which reach, clearance and plane meet")] = 0.02
+    elbow_gap_m: Annotated[float, Constant("m", "A3.4", "skin of the elbow to skin of the torso, at least")] = 0.01
+
+
+class Wrap(NamedTuple):
+    """A threat from behind the shoulders (3.4, fig. 3.11): hands behind the head, elbows around its sides."""
+
+    behind_low: Annotated[float, Constant("1", "A5", "facing . threat at and below which the arms wrap fully")] = -0.15
+    behind_high: Annotated[float, Constant("1", "A5", "facing . threat at and above which they block fully")] = 0.15
+    palm_gap_m: Annotated[float, Constant("m", "3.4", "palm off the back of the head")] = 0.025
+    palm_apart_m: Annotated[float, Constant("m", "3.4", "each palm off the middle")] = 0.05
+    palm_below_m: Annotated[float, Constant("m", "3.4", "palms below the head's centre")] = 0.02
+    fingers_inward_rad: Annotated[float, Constant("rad", "3.4", "fingers from upright towards each other")] = radians(55)
+    swivel_rad: Annotated[float, Constant("rad", "3.4", "elbow away from down, wrapped around the head")] = radians(110)
+
+
+class Pelvis(NamedTuple):
+    """A threat to the pelvis (3.4, fig. 3.12): arms kept close, the pelvis alone leans, towards the threat."""
+
+    reach_far_m: Annotated[float, Constant("m", "3.4", "palm from its own shoulder, control 0")] = 0.5
+    reach_near_m: Annotated[float, Constant("m", "3.4", "palm from its own shoulder, control 1")] = 0.4
+    lean_sign: Annotated[float, Constant("1", "3.4", "the pelvis's lean is negated")] = -1.0
+
+
+class Startle(NamedTuple):
+    """Startle (3.2.6): the reflex before the considered defence."""
+
+    recoil_weight: Annotated[float, Constant("1", "3.2.6", "weight of the full recoil pose; the clip has the rest")] = 0.2
+    head_turn_share: Annotated[float, Constant("1", "3.2.6", "of the way the head turns towards the threat")] = 0.4
+    least_sustained_s: Annotated[float, Constant("s", "A3", "skipped when less would be left for the sustained blend")] = 0.15
+
+
+class Balance(NamedTuple):
+    """Static balance and bracing (3.3), and how the feet are planted for it."""
+
+    brace_m: Annotated[float, Constant("m", "3.3", "COM wanted this far towards the threat")] = 0.10
+    leg_share: Annotated[float, Constant("1", "A4", "of a leg's length that planting may use")] = 0.995
+    lift_over_m: Annotated[float, Constant("m", "A4", "a foot that moves farther is lifted on an arc")] = 0.03
+    lift_height_m: Annotated[float, Constant("m", "A4", "height of that arc")] = 0.05
+    foot_tolerance_m: Annotated[float, Constant("m", "A4", "planted feet end where they were planted within this")] = 1e-4
+
+
+class Objective(NamedTuple):
+    """The total error (3.3, eq. 3.3) as the solver sees it: `squares` (A4), the thesis's `literal` sum, or it `smoothed`."""
+
+    form: Annotated[str, Constant("name", "A4", "squares | literal | smoothed")] = "squares"
+    balance_weight: Annotated[float, Constant("1", "A4", "weight of the COM's distance")] = 5.0
+    hands_weight: Annotated[float, Constant("1", "A4", "weight of each palm's distance")] = 1.0
+    torso_weight: Annotated[float, Constant("1", "A4", "weight of sin(half angle): pelvis, waist, back")] = 1.0
+    pelvis_height_weight: Annotated[float, Constant("1", "A4", "weight of the pelvis's height")] = 1.0
+    feet_weight: Annotated[float, Constant("1", "A4", "weight of each foot's distance")] = 5.0
+    control_weight: Annotated[float, Constant("1", "A4", "weight of each control's change")] = 0.1
+    outside_weight: Annotated[float, Constant("1", "A4", "weight of a control's excess over [0, 1]")] = 1.0
+    smoothing_m: Annotated[float, Constant("m", "A4", "rounding of the smoothed form's norms")] = 0.01
+
+
+class Solver(NamedTuple):
+    """The quasi-Newton search (3.3) and its bounded least-squares companion."""
+
+    method: Annotated[str, Constant("name", "A4", "bfgs | least_squares")] = "bfgs"
+    offset: Annotated[float, Constant("m or 1", "3.3", "finite difference to either side")] = 0.01
+    tolerance: Annotated[float, Constant("1", "A4", "relative decrease that ends the search")] = 1e-4
+    iterations: Annotated[int, Constant("count", "A4", "at most")] = 60
+    restarts: Annotated[int, Constant("count", "A4", "fresh curvature at the end, at most, while that still gains")] = 2
+
+
+class Timing(NamedTuple):
+    """When things happen (4.2, fig. 4.1)."""
+
+    ttc_model: Annotated[str, Constant("name", "A6", "equation | text: which of the thesis's two accounts")] = "equation"
+    ttc_least_s: Annotated[float, Constant("s", "eq. 4.1", "time to contact of the fastest threat")] = 0.25
+    ttc_range_s: Annotated[float, Constant("s", "eq. 4.1", "added for the slowest")] = 0.75
+    ttc_side_gain: Annotated[float, Constant("1", "eq. 4.1", "more time from the side")] = 0.2
+    ttc_side_gain_text: Annotated[float, Constant("1", "4.2", "the same, where the text rules")] = 0.1
+    angle_free: Annotated[bool, Constant("yes/no", "A6", "from the side: start earlier, move no slower")] = False
+    startle_ahead_s: Annotated[float, Constant("s", "4.2", "look-ahead into the clip, startle")] = 1.0 / 12.0
+    sustained_ahead_s: Annotated[float, Constant("s", "4.2", "look-ahead into the clip, sustained pose and re-entry")] = 1.0 / 6.0
+    startle_s: Annotated[float, Constant("s", "4.2", "the blend to the startle pose")] = 15.0 / 120.0
+    slack_share: Annotated[float, Constant("1", "4.2", "how much longer than the TTC the blend takes")] = 0.05
+
+
+class Blend(NamedTuple):
+    """Moving between two poses (4.3)."""
+
+    knee_rule: Annotated[str, Constant("name", "A7", "ends | least_travel: how the knees' swivel is chosen")] = "ends"
+    overshoot_share: Annotated[float, Constant("1", "A6", "amplitude of the damped overshoot that fills a pause")] = 0.06
+    overshoot_period_s: Annotated[float, Constant("s", "A6", "its period")] = 0.5
+    overshoot_half_life_s: Annotated[float, Constant("s", "A6", "its half-life")] = 0.12
+    seam_half_life_s: Annotated[float, Constant("s", "A7", "half-life of what a seam leaves over")] = 0.03
+
+
+class Response(NamedTuple):
+    """The dynamic response (4.1.2; Zordan et al. 2005)."""
+
+    duration_s: Annotated[float, Constant("s", "4.2", "physics alone, 50 - 100 ms")] = 0.08
+    restitution: Annotated[float, Constant("1", "A8", "ball against body")] = 0.55
+    friction: Annotated[float, Constant("1", "A8", "ball against body")] = 0.5
+    contact_s: Annotated[float, Constant("s", "A8", "how long the ball presses, half a sine; 0 is an instant")] = 0.010
+    stiffness: Annotated[float, Constant("1", "A8", "strength of the tracking servos, 1 is usual")] = 1.0
+    damping: Annotated[float, Constant("1", "A8", "their damping, 1 is critical")] = 1.0
+
+
+class Recovery(NamedTuple):
+    """Back to a meaningful motion (4.1.3)."""
+
+    part_one_s: Annotated[float, Constant("s", "4.2", "simulation blends into the held sustained pose")] = 0.260
+    part_two_s: Annotated[float, Constant("s", "4.2", "the rest of the way to the return pose")] = 0.375
+    part_one_share: Annotated[float, Constant("1", "4.1.3", "of the return blend that is over after part one")] = 0.25
+    hold_s: Annotated[float, Constant("s", "4.2", "the sustained pose is held when nothing was touched")] = 1.0 / 3.0
+
+
+class Settings(NamedTuple):
+    """All of it. Immutable: `override` gives a changed copy."""
+
+    volleyball: Volleyball = Volleyball()
+    lean_turn: LeanTurn = LeanTurn()
+    recoil: Recoil = Recoil()
+    block: Block = Block()
+    wrap: Wrap = Wrap()
+    pelvis: Pelvis = Pelvis()
+    startle: Startle = Startle()
+    balance: Balance = Balance()
+    objective: Objective = Objective()
+    solver: Solver = Solver()
+    timing: Timing = Timing()
+    blend: Blend = Blend()
+    response: Response = Response()
+    recovery: Recovery = Recovery()
+
+
+CHOICES = {
+    "objective.form": ("squares", "literal", "smoothed"),
+    "solver.method": ("bfgs", "least_squares"),
+    "timing.ttc_model": ("equation", "text"),
+    "blend.knee_rule": ("ends", "least_travel"),
+}
+
+
+def constants() -> dict[str, Constant]:
+    """Dotted name -> unit, section, meaning, of every constant there is, in the order of this file."""
+    table = {}
+    for group_name, group in zip(Settings._fields, Settings(), strict=True):
+        hints = get_type_hints(type(group), include_extras=True)
+        for field in group._fields:
+            table[f"{group_name}.{field}"] = hints[field].__metadata__[0]
+    return table
+
+
+def override(settings: Settings, changes: dict[str, Any]) -> Settings:
+    """A copy with some constants replaced, by dotted name. Angles also by `..._deg`. BadInput names what is wrong.
+
+    Values keep the type of the default (a kernel compiled for a float never meets an int).
+    """
+    for name, value in changes.items():
+        group_name, _, field = name.partition(".")
+        group = getattr(settings, group_name, None) if group_name in Settings._fields else None
+        in_degrees = field.endswith("_deg")
+        if in_degrees:
+            field = field.removesuffix("_deg") + "_rad"
+        if group is None or field not in group._fields:
+            raise BadInput("E-SETTING", f"unknown setting {name!r}; expected {_nearest(name)}")
+        settings = settings._replace(
+            **{group_name: group._replace(**{field: _as_default(name, value, getattr(group, field), in_degrees)})}
+        )
+    return settings
+
+
+def _as_default(name: str, value: Any, default: Any, in_degrees: bool) -> Any:
+    """The value in the default's own type, degrees turned into radians."""
+    scale = pi / 180.0 if in_degrees else 1.0
+    try:
+        if isinstance(default, tuple):
+            if len(value) != len(default):
+                raise ValueError
+            return tuple(float(v) * scale for v in value)
+        if isinstance(default, bool):
+            if not isinstance(value, bool):
+                raise ValueError
+            return value
+        if isinstance(default, str):
+            if value not in CHOICES[name]:
+                raise BadInput("E-SETTING", f"{name} is {value!r}; expected {' | '.join(CHOICES[name])}")
+            return str(value)
+        if isinstance(value, bool) or float(value) != float(value):
+            raise ValueError
+        if isinstance(default, int):
+            if int(value) != float(value):
+                raise ValueError
+            return int(value)
+        return float(value) * scale
+    except (TypeError, ValueError):
+        wanted = f"{len(default)} numbers" if isinstance(default, tuple) else type(default).__name__
+        raise BadInput("E-SETTING", f"{name} is {value!r}; expected {wanted}") from None
+
+
+def _nearest(name: str) -> str:
+    """The few names most like a misspelt one."""
+    from difflib import get_close_matches
+
+    near = get_close_matches(name, list(constants()), n=3, cutoff=0.5)
+    return " or ".join(near) if near else f"one of the groups {', '.join(Settings._fields)}"
