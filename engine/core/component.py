@@ -62,7 +62,7 @@ class Component:
 
 
 def _as_declared(given: Any, declared: Column, name: str) -> np.ndarray:
-    """A value as an array of the declared shape and type. TypeError where it has another shape or would lose its meaning."""
+    """A value as an array of the declared shape and type. TypeError: another shape, or meaning would be lost."""
     value = np.asarray(given)
     if value.shape != declared.shape:
         raise TypeError(f"{name} has shape {value.shape}, expected {declared.shape}")

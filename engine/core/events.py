@@ -1,7 +1,8 @@
 """What happened, in order: the account that reports, plots and sounds are made from.
 
-An event says things in plain values (text, numbers, tuples of them), so that it can be printed, saved and compared. Events
-are part of the state: the log keeps a chain of hashes, each event's over all before it, so that the digest of a long history costs nothing.
+An event says things in plain values (text, numbers, tuples of them), so that it can be printed, saved and compared.
+Events are part of the state: the log keeps a chain of hashes, each event's over all before it, so that the digest of a
+long history costs nothing.
 """
 
 from __future__ import annotations
@@ -32,7 +33,7 @@ class Event(NamedTuple):
 class EventLog:
     """Append-only. Reads like a list: length, index, slice, iteration."""
 
-    __slots__ = ("_events", "_chain")
+    __slots__ = ("_chain", "_events")
 
     def __init__(self) -> None:
         self._events: list[Event] = []
@@ -67,7 +68,7 @@ class EventLog:
         return [integer(len(self._events)), self._chain]
 
     def read(self, reader: Reader, events: tuple[Event, ...]) -> None:
-        """Become a log of these events, whose count and chain the reader holds. ValueError if they do not belong together."""
+        """Become a log of these events, whose count and chain the reader holds. ValueError: another number of them."""
         count, chain = reader.integer(), reader.take(CHAIN_BYTES)
         if count != len(events):
             raise ValueError(f"{len(events)} events where the state counts {count}")

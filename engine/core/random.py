@@ -1,8 +1,8 @@
 """Named streams of chance. A draw is a function of the world's seed, the stream's name and how many were drawn before.
 
-So the whole state of chance is one count per stream: it is saved, restored and hashed like everything else, and a new stream
-never shifts an old one. The generator is Philox 4x64-10 (Salmon, Moraes, Dror, Shaw, "Parallel random numbers: as easy as 1, 2, 3",
-SC 2011), written out here because NumPy promises no lasting bits for its distributions.
+So the whole state of chance is one count per stream: it is saved, restored and hashed like everything else, and a new
+stream never shifts an old one. The generator is Philox 4x64-10 (Salmon, Moraes, Dror, Shaw, "Parallel random numbers:
+as easy as 1, 2, 3", SC 2011), written out here because NumPy promises no lasting bits for its distributions.
 """
 
 from __future__ import annotations
@@ -34,7 +34,7 @@ def philox(counter: int, key: tuple[int, int]) -> tuple[int, int, int, int]:
 class Stream:
     """One named stream. It remembers nothing: what was drawn is counted in the world."""
 
-    __slots__ = ("_name", "_key", "_drawn")
+    __slots__ = ("_drawn", "_key", "_name")
 
     def __init__(self, seed: int, name: str, drawn: dict[str, int]):
         hashed = hashlib.sha256(f"{seed}/{name}".encode()).digest()
@@ -75,7 +75,7 @@ class Stream:
 class Streams:
     """The streams of one world, and how many words each has given."""
 
-    __slots__ = ("_seed", "_drawn", "_open")
+    __slots__ = ("_drawn", "_open", "_seed")
 
     def __init__(self, seed: int):
         self._seed = seed

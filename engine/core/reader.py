@@ -8,7 +8,7 @@ import numpy as np
 class Reader:
     """Reads from the front. ValueError where the bytes end too early."""
 
-    __slots__ = ("_bytes", "_at")
+    __slots__ = ("_at", "_bytes")
 
     def __init__(self, data: bytes):
         self._bytes = data

@@ -1,7 +1,7 @@
 """Which rows of the world are somebody, and the handles by which others hold on to them.
 
-A handle is `generation << 32 | row`. A row's generation rises each time it is reused, so that a handle to someone who is
-gone never means a newcomer. Generations start at one: the handle 0 is nobody, and a fresh int64 column holds nobody.
+A handle is `generation << 32 | row`. A row's generation rises each time it is reused, so that a handle to someone who
+is gone never means a newcomer. Generations start at one: the handle 0 is nobody, and a fresh int64 column holds nobody.
 """
 
 from __future__ import annotations
@@ -22,7 +22,7 @@ class DeadEntity(LookupError):
 class Rows:
     """The register of entities. The lowest free row is used first, so no order of past deaths has to be remembered."""
 
-    __slots__ = ("count", "capacity", "generation", "alive")
+    __slots__ = ("alive", "capacity", "count", "generation")
 
     def __init__(self, capacity: int):
         self.count = 0  # rows ever used

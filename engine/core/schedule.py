@@ -1,4 +1,4 @@
-"""The order of a tick. A system is a function of the world that declares when it runs, what it reads and what it writes."""
+"""The order of a tick. A system is a function of the world that declares when it runs, what it reads and writes."""
 
 from __future__ import annotations
 
@@ -50,9 +50,8 @@ def declaration_of(function: System) -> Declaration:
     """What `@system` attached. TypeError where it was forgotten."""
     found = getattr(function, "declaration", None)
     if found is None:
-        raise TypeError(
-            f"{getattr(function, '__name__', function)} is no system: decorate it with @system(Stage...., reads, writes)"
-        )
+        name = getattr(function, "__name__", repr(function))
+        raise TypeError(f"{name} is no system: decorate it with @system(Stage...., reads=(...), writes=(...))")
     return found
 
 

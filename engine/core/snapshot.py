@@ -1,7 +1,7 @@
-"""The whole state of a world as one canonical run of bytes: hashed it is the digest, kept it is a snapshot, stored it is a file.
+"""The whole state of a world as one canonical run of bytes: hashed it is the digest, kept a snapshot, stored a file.
 
-Canonical: nothing in it depends on how the state came about: not on the order of dictionaries, the capacity of columns, or
-what rows that nobody owns happen to hold.
+Canonical: nothing in it depends on how the state came about, not on the order of dictionaries, the capacity of columns,
+or what rows that nobody owns happen to hold.
 """
 
 from __future__ import annotations

@@ -13,7 +13,7 @@ NO_ROWS = np.empty(0, np.int64)
 
 
 class Columns:
-    """What a system sees of a component: `.field` is the whole column, row axis first; `.present` says which rows count.
+    """What a system sees of a component: `.field` is the whole column, row axis first; `.present` tells which count.
 
     A column grows by being replaced: take it anew after anything was spawned.
     """
@@ -31,10 +31,11 @@ class Columns:
 class Table:
     """One component's columns. Rows without the component hold the fields' fill and are no part of the state."""
 
-    __slots__ = ("component", "columns", "rows", "_present", "_views")
+    __slots__ = ("_present", "_views", "columns", "component", "rows")
 
     def __init__(self, component: type[Component], capacity: int):
         self.component = component
+        self._views: list[Any] | None = None  # what `parts` gives, while it need not be gathered
         self.columns = Columns()
         self._present = np.zeros(0, bool)
         self.grow(capacity)
@@ -109,11 +110,9 @@ class Table:
         first, last = int(rows[0]), int(rows[-1])
         if last - first + 1 != len(rows):
             return []
-        return [
-            _count(rows),
-            rows.tobytes(),
-            *(memoryview(a[first : last + 1]).cast("B") for a in self.arrays() if a.size),
-        ]
+        # the stubs of NumPy do not know its arrays for buffers before Python 3.12
+        columns = (memoryview(array[first : last + 1]).cast("B") for array in self.arrays() if array.size)  # type: ignore
+        return [_count(rows), rows.tobytes(), *columns]
 
     def _show_present(self, present: np.ndarray) -> None:
         self._present = present

@@ -30,11 +30,11 @@ class World:
     """Entities with components, a tick, events and chance.
 
     `components`: every component class there can be; their order fixes the order in the digest and in files.
-    `assets`: what never changes and is shared by all ticks (clips, bodies, settings, models). Not state, not in snapshots.
+    `assets`: what never changes and is shared by all ticks (clips, bodies, settings, models): no state, in no snapshot.
     """
 
-    __slots__ = ("tick", "seed", "assets", "events", "components", "schema", "_tables", "_open", "_writable",
-                 "_rows", "_streams", "_queries")  # fmt: skip
+    __slots__ = ("_open", "_queries", "_rows", "_streams", "_tables", "_writable",
+                 "assets", "components", "events", "schema", "seed", "tick")  # fmt: skip
 
     def __init__(self, components: Iterable[type[Component]], seed: int = 0, assets: Any = None):
         self.components = tuple(components)
@@ -79,7 +79,7 @@ class World:
     # --- entities ------------------------------------------------------------------------------------------------
 
     def spawn(self, *components: Component) -> int:
-        """A new entity with these components, in the lowest free row; its handle. Columns taken before may be outgrown."""
+        """A new entity with these components, in the lowest free row; its handle. Take columns anew afterwards."""
         kinds = [type(component) for component in components]
         if len(set(kinds)) != len(kinds):
             raise ValueError("an entity has at most one component of a kind")
@@ -179,7 +179,7 @@ class World:
     # --- what the running system may touch -----------------------------------------------------------------------
 
     def permit(self, readable: frozenset[type[Component]] | None, writable: frozenset[type[Component]] | None) -> None:
-        """Limit access to these components; None lifts the limit. The checked schedule calls this around each system."""
+        """Limit access to these components; None lifts the limit. The checked schedule calls this around a system."""
         seen = self._tables if readable is None else {c: self._tables[c] for c in self.components if c in readable}
         self._open = _Open({component: table.columns for component, table in seen.items()})
         self._writable = writable
