@@ -1,0 +1,1 @@
+"""One module for each word of `brace`, each with `register(subparsers)` and `run(args)`."""

@@ -1,0 +1,50 @@
+"""`brace bench`: how fast it is on this machine, beside references measured in the same run."""
+
+from __future__ import annotations
+
+import argparse
+
+from demos.output import print_json, say
+from engine.core.errors import BadInput
+
+
+def register(subparsers) -> None:
+    parser = subparsers.add_parser(
+        "bench",
+        help="the benchmarks of the README, each beside a reference measured in the same run",
+        description="Times ours and a named reference in turns on this machine, and prints both medians and their ratio.",
+        epilog="example: brace bench kinematics --json",
+    )
+    parser.add_argument("names", nargs="*", metavar="NAME", help="only these (all without any)")
+    parser.add_argument("--json", action="store_true", help="the same for programs")
+    parser.set_defaults(run=run)
+
+
+def run(args: argparse.Namespace) -> None:
+    from demos.benchmarks import NAMES, measure
+    from demos.cli import nearest
+
+    for name in args.names:
+        if name not in NAMES:
+            raise BadInput("name", f"unknown benchmark {name!r}; {nearest(name, NAMES)}")
+    timings = []
+    for name in args.names or NAMES:
+        say(f"measuring {name}")
+        timings.append(measure(name))
+    if args.json:
+        print_json({"benchmarks": [{**timing._asdict(), "times_faster": timing.times_faster} for timing in timings]})
+        return
+    print(f"{'benchmark':<36} {'ours':>10} {'reference':>10} {'faster':>8}  reference")
+    for timing in timings:
+        print(
+            f"{timing.what:<36} {seconds(timing.ours_s):>10} {seconds(timing.reference_s):>10} "
+            f"{timing.times_faster:>7.1f}x  {timing.reference_name}"
+        )
+
+
+def seconds(value_s: float) -> str:
+    """A time with three digits and the unit that suits it."""
+    for unit, scale in (("s", 1.0), ("ms", 1e-3), ("us", 1e-6)):
+        if value_s >= scale:
+            return f"{value_s / scale:.3g} {unit}"
+    return f"{value_s / 1e-9:.3g} ns"

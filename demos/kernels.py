@@ -1,0 +1,111 @@
+"""Compiled kernels: made once, with progress, and never stale.
+
+Numba keeps a compiled kernel beside its source and looks only at that one file's date: a kernel that calls another
+module's goes on running the old code after the other was changed. So here a compiled kernel is thrown away when it is
+older than its own source *or* any source of ours that it imports, however indirectly.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import re
+import sys
+from collections.abc import Callable, Iterator
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parent.parent
+ROOMS = ("engine", "behaviours", "demos")
+_IMPORT = re.compile(r"^(?:from[ ]+([\w.]+)[ ]+import[ ]+(?:\(([^)]*)\)|(.*))|import[ ]+([\w.]+))", re.MULTILINE)
+
+
+def forget_stale(root: Path = ROOT) -> list[str]:
+    """Removes the compiled kernels that an edit has made stale, and returns the modules they belong to.
+
+    A tree that cannot be written is left alone: it was installed, and its sources do not change.
+    """
+    paths = [path for room in ROOMS for path in sorted((root / room).rglob("*.py"))]
+    sources = {path.relative_to(root).as_posix(): path for path in paths}
+    dates = {name: path.stat().st_mtime_ns for name, path in sources.items()}
+    compiled = {name: _compiled_beside(path) for name, path in sources.items()}
+    oldest = min((date for files in compiled.values() for date in files.values()), default=None)
+    if oldest is None or oldest >= max(dates.values()):
+        return []  # the usual case costs no more than looking at dates
+    imports = {name: _imported(path.read_text(encoding="utf-8"), sources) for name, path in sources.items()}
+    stale = []
+    for name, files in compiled.items():
+        newest = max(dates[other] for other in _reached(name, imports))
+        if any(date < newest for date in files.values()):
+            stale.append(name)
+            with contextlib.suppress(OSError):
+                for file in files:
+                    file.unlink(missing_ok=True)
+                    file.with_name(re.sub(r"\.\d+\.nbc$", ".nbi", file.name)).unlink(missing_ok=True)
+    return stale
+
+
+def _compiled_beside(source: Path) -> dict[Path, int]:
+    """Numba's files of compiled code of one module, with their dates."""
+    found = {}
+    for file in (source.parent / "__pycache__").glob(f"{source.stem}.*.nbc"):
+        with contextlib.suppress(FileNotFoundError):  # another process may be tidying too
+            found[file] = file.stat().st_mtime_ns
+    return found
+
+
+def _reached(name: str, imports: dict[str, set[str]]) -> set[str]:
+    """The module itself and everything that it imports, directly or not."""
+    reached, waiting = {name}, [name]
+    while waiting:
+        new = imports[waiting.pop()] - reached
+        reached |= new
+        waiting.extend(new)
+    return reached
+
+
+def _imported(text: str, known: dict[str, Path]) -> set[str]:
+    found = set()
+    for package, wrapped, names, plain in _IMPORT.findall(text):
+        base = (package or plain).replace(".", "/")
+        words = [word.split()[0] for word in (wrapped or names).split(",") if word.split()]
+        found.update(f"{candidate}.py" for candidate in (base, *(f"{base}/{word}" for word in words)))
+    return found & known.keys()
+
+
+def warm_up(show: Callable[[str], None]) -> int:
+    """Compiles every kernel of a whole reaction by running one on the embedded clip. Returns how many were compiled.
+
+    `show` gets a line of progress for each; kernels that are compiled already only cost their loading.
+    """
+    forget_stale()
+    with _compilations(show) as compiled:
+        from demos.warm_up import whole_reaction
+
+        whole_reaction()
+    return len(compiled)
+
+
+@contextlib.contextmanager
+def _compilations(show: Callable[[str], None]) -> Iterator[list[str]]:
+    """Collects the names of the kernels that Numba compiles inside the block, showing each as it starts."""
+    from numba.core import event
+
+    names: list[str] = []
+
+    class Announce(event.Listener):
+        def on_start(self, happening):
+            function = happening.data["dispatcher"].py_func
+            names.append(f"{function.__module__}.{function.__qualname__}")
+            show(f"compiling kernel {len(names)}: {names[-1]}")
+
+        def on_end(self, happening):
+            pass
+
+    with event.install_listener("numba:compile", Announce()):
+        yield names
+
+
+def terminal_line(text: str) -> None:
+    """Progress that overwrites itself on a terminal and is silent in a pipe."""
+    if sys.stderr.isatty():
+        sys.stderr.write(f"\r\033[K{text[:100]}")
+        sys.stderr.flush()

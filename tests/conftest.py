@@ -1,0 +1,41 @@
+"""What every test stands on: strict floating point, deterministic search, kernels that match their sources."""
+
+from __future__ import annotations
+
+import os
+from pathlib import Path
+
+os.environ.setdefault("NUMBA_THREADING_LAYER", "workqueue")
+
+import numpy as np
+import pytest
+from hypothesis import settings
+
+from demos.kernels import forget_stale
+
+settings.register_profile("house", derandomize=True, deadline=None, database=None, print_blob=True)
+settings.load_profile("house")
+
+ROOT = Path(__file__).resolve().parent.parent
+
+
+def pytest_configure(config: pytest.Config) -> None:
+    """Before any worker starts: no kernel may run older code than its source says."""
+    if not hasattr(config, "workerinput"):
+        forget_stale()
+
+
+@pytest.fixture(autouse=True)
+def _strict_floating_point():
+    """Overflow, invalid operations, division by zero and underflow in numpy are faults, in every test."""
+    with np.errstate(all="raise"):
+        yield
+
+
+@pytest.fixture(scope="session")
+def shared_mocap() -> Path:
+    """The folder of real motion capture that lies beside a full checkout."""
+    folder = ROOT.parent / "shared" / "mocap"
+    if not folder.is_dir():
+        pytest.skip("the motion capture beside the checkout (../shared/mocap) is not here")
+    return folder
