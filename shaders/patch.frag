@@ -1,0 +1,6 @@
+in vec4 paint;
+out vec4 pixel;
+
+void main() {
+    pixel = paint;
+}
