@@ -167,7 +167,7 @@ def _try_python(code: str) -> tuple[int, str, str]:
     root = str(Path(__file__).resolve().parent.parent)
     try:
         done = subprocess.run(
-            [sys.executable, "-c", code], capture_output=True, text=True, timeout=120,
+            [sys.executable, "-P", "-c", code], capture_output=True, text=True, timeout=120,
             env={**os.environ, "PYTHONPATH": os.pathsep.join(filter(None, (root, os.environ.get("PYTHONPATH"))))},
         )  # fmt: skip
     except subprocess.TimeoutExpired:

@@ -12,7 +12,7 @@ def register(subparsers) -> None:
     parser = subparsers.add_parser(
         "bench",
         help="the benchmarks of the README, each beside a reference measured in the same run",
-        description="Times ours and a named reference in turns on this machine, and prints both medians and their ratio.",
+        description="Times ours and a named reference in turns on this machine; prints medians and ratio.",
         epilog="example: brace bench kinematics --json",
     )
     parser.add_argument("names", nargs="*", metavar="NAME", help="only these (all without any)")

@@ -1,0 +1,84 @@
+"""A compiled kernel never outlives a source that it was compiled from."""
+
+import os
+
+import pytest
+
+from demos.kernels import forget_stale
+
+SOURCES = {
+    "engine/maths/vector.py": "from numba import njit\n",
+    "engine/body/arm.py": "from engine.maths import (\n    quaternion,\n    vector,\n)\n",
+    "behaviours/block.py": "import numpy\nfrom engine.body.arm import bend\n",
+    "behaviours/lean.py": "import math\n",
+}
+
+
+@pytest.fixture
+def tree(tmp_path):
+    """Three rooms whose every module has one compiled kernel, younger than all sources."""
+    (tmp_path / "demos").mkdir()
+    for name, text in SOURCES.items():
+        source = tmp_path / name
+        source.parent.mkdir(parents=True, exist_ok=True)
+        source.write_text(text)
+        date(source, 100)
+        for ending in ("nbi", "1.nbc"):
+            compiled = source.parent / "__pycache__" / f"{source.stem}.kernel-7.py311.{ending}"
+            compiled.parent.mkdir(exist_ok=True)
+            compiled.touch()
+            date(compiled, 200)
+    return tmp_path
+
+
+def date(path, seconds):
+    os.utime(path, (seconds, seconds))
+
+
+def kept(tree):
+    return {path.name.split(".")[0] for path in tree.rglob("*.nb[ic]")}
+
+
+def test_nothing_is_thrown_away_without_an_edit(tree):
+    assert forget_stale(tree) == []
+    assert kept(tree) == {"vector", "arm", "block", "lean"}
+
+
+def test_an_edit_reaches_all_that_import_it_however_indirectly(tree):
+    date(tree / "engine/maths/vector.py", 300)
+    assert set(forget_stale(tree)) == {"engine/maths/vector.py", "engine/body/arm.py", "behaviours/block.py"}
+    assert kept(tree) == {"lean"}
+
+
+def test_an_edit_leaves_what_it_imports(tree):
+    date(tree / "behaviours/block.py", 300)
+    assert forget_stale(tree) == ["behaviours/block.py"]
+    assert kept(tree) == {"vector", "arm", "lean"}
+
+
+def test_numba_itself_would_have_run_the_old_code(tmp_path):
+    """The reason for all this: a changed callee in another file, with and without forget_stale."""
+    import subprocess
+    import sys
+
+    engine = tmp_path / "engine"
+    for room in ("engine", "behaviours", "demos"):
+        (tmp_path / room).mkdir()
+        (tmp_path / room / "__init__.py").touch()
+    callee = "from numba import njit\n@njit(cache=True)\ndef answer():\n    return {}\n"
+    (engine / "callee.py").write_text(callee.format(41))
+    (engine / "caller.py").write_text(
+        "from numba import njit\nfrom engine.callee import answer\n@njit(cache=True)\ndef ask():\n    return answer()\n"
+    )
+
+    def run():
+        words = [sys.executable, "-c", "from engine.caller import ask; print(ask())"]
+        environment = {**os.environ, "PYTHONDONTWRITEBYTECODE": "1"}
+        done = subprocess.run(words, env=environment, cwd=tmp_path, capture_output=True, text=True, check=True)
+        return done.stdout.strip()
+
+    assert run() == "41"
+    (engine / "callee.py").write_text(callee.format(42))
+    assert run() == "41"  # should numba ever learn it, this module can go
+    assert "engine/caller.py" in forget_stale(tmp_path)
+    assert run() == "42"
