@@ -53,9 +53,9 @@ def first_non_finite(world: World, component: type[Component]) -> tuple[str, int
     table = world.table(component)
     for field, array in zip(component.columns, table.arrays(), strict=True):
         if array.dtype.kind == "f":
-            wrong = ~np.isfinite(array[table.rows]).reshape(len(table.rows), -1).all(axis=1)
-            if wrong.any():
-                return field, int(table.rows[wrong.argmax()])
+            finite = np.isfinite(array[table.rows])
+            if not finite.all():
+                return field, int(table.rows[np.argwhere(~finite)[0, 0]])
     return None
 
 

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from toy_world import COMPONENTS, Flight, Marked, Wear, toy
 
 from engine.core.rows import DeadEntity
 from engine.core.snapshot import Snapshot
 from engine.core.world import Component, UndeclaredAccess, World, column
+from tests.core.toy_world import COMPONENTS, Flight, Marked, Wear, toy
 
 
 @pytest.fixture

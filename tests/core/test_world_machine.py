@@ -8,9 +8,9 @@ import numpy as np
 from hypothesis import settings
 from hypothesis import strategies as st
 from hypothesis.stateful import Bundle, RuleBasedStateMachine, consumes, invariant, precondition, rule
-from toy_world import COMPONENTS, Flight, Marked, Wear
 
 from engine.core.world import World
+from tests.core.toy_world import COMPONENTS, Flight, Marked, Wear
 
 NUMBERS = st.floats(-1e6, 1e6)
 KINDS = st.sampled_from([Flight, Wear, Marked])
