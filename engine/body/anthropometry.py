@@ -21,6 +21,7 @@ from engine.body.skeleton import (
     HEAD,
     HIPS,
     JOINT_COUNT,
+    JOINTS,
     KNEES,
     NECK,
     PARENT,
@@ -187,7 +188,7 @@ def standard_body(height_m: float = 1.75, sex: str = "male", mass_kg: float | No
         offset[HIPS[side]] = (0.0, HALF_HIPS * out * h, -low)
         offset[KNEES[side]] = (0.0, 0.0, -b.thigh * h)
         offset[ANKLES[side]] = (0.0, 0.0, -b.shank * h)
-        offset[TOES[side]] = (BALL_AHEAD * b.foot * h, 0.0, TOE_JOINT_HEIGHT * h - ANKLE_HEIGHT * h)
+        offset[TOES[side]] = (BALL_AHEAD * b.foot * height_m, 0.0, (TOE_JOINT_HEIGHT - ANKLE_HEIGHT) * h)
     return make_body(offset, sex=sex, mass_kg=mass_kg)
 
 
@@ -238,6 +239,8 @@ def _cylindrical(joint, row, body_mass_kg, start, end):
     """A segment that runs from start to end: de Leva's row turned from its own axes to the body's."""
     axis = end - start
     length = float(np.sqrt((axis * axis).sum()))
+    if length < 1e-3:
+        raise ValueError(f"the segment carried by {JOINTS[joint]} has no length")
     z = axis / length
     # front stays front: the sagittal axis is X as far as a bone that is not quite upright allows
     x = np.array([1.0, 0.0, 0.0]) - z[0] * z

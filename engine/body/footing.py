@@ -1,0 +1,84 @@
+"""Feet on the ground: where an ankle has to be for the sole to lie flat, how near a foot can be put, and stepping there."""
+
+from __future__ import annotations
+
+import math
+
+from numba import njit
+
+from engine.body import support
+from engine.body.skeleton import ANKLES, HIPS, KNEES, TOES
+from engine.maths import quaternion, vector
+
+
+@njit(cache=True)
+def sole_depth_m(body, side):
+    """How far the sole lies below the ankle joint of a flat foot."""
+    return -body.sole_m[side, 0, 2]
+
+
+@njit(cache=True)
+def flat_orientation(heading_rad):
+    """The world orientation of a foot that stands flat and points along a heading."""
+    return quaternion.about_z(heading_rad)
+
+
+@njit(cache=True)
+def foot_heading(orientations, side):
+    """Where a foot points, radians about world Z; also for a foot on tiptoe or hanging down."""
+    return quaternion.heading(orientations[ANKLES[side]])
+
+
+@njit(cache=True)
+def leg_length_m(body, side):
+    """Hip to ankle of the straight leg."""
+    return vector.length(body.offset_m[KNEES[side]]) + vector.length(body.offset_m[ANKLES[side]])
+
+
+@njit(cache=True)
+def nearest_footing(body, positions, orientations, side, ground_m, spare_m):
+    """Where to put a foot flat: straight below where it is now, else the nearest ground that the leg reaches from its hip.
+
+    spare_m: how much of the leg's length to leave unused. Returns (ankle target (3,), foot orientation (4,), reachable).
+    Not reachable (the hip is too high): the target is straight below the hip, and is out of reach.
+    """
+    hip, ankle = positions[HIPS[side]], positions[ANKLES[side]]
+    height = ground_m + sole_depth_m(body, side)
+    orientation = flat_orientation(foot_heading(orientations, side))
+    reach, drop = leg_length_m(body, side) - spare_m, hip[2] - height
+    if drop > reach:
+        return (hip[0], hip[1], height), orientation, False
+    farthest = math.sqrt(reach * reach - drop * drop)
+    dx, dy = ankle[0] - hip[0], ankle[1] - hip[1]
+    away = math.hypot(dx, dy)
+    share = min(1.0, farthest / away) if away > 1e-9 else 1.0
+    return (hip[0] + share * dx, hip[1] + share * dy, height), orientation, True
+
+
+@njit(cache=True)
+def straighten_toe(body, rotations, positions, orientations, side):
+    """Turns the toes in line with the foot, in place: a foot that is put down flat must not keep them bent."""
+    ankle, toe = ANKLES[side], TOES[side]
+    for k in range(4):
+        rotations[toe, k] = 1.0 if k == 0 else 0.0
+        orientations[toe, k] = orientations[ankle, k]
+    p = vector.add(positions[ankle], quaternion.rotate(orientations[ankle], body.offset_m[toe]))
+    positions[toe, 0], positions[toe, 1], positions[toe, 2] = p
+
+
+@njit(cache=True)
+def lowest_sole_m(body, positions, orientations):
+    """World height of the lowest sole point of both feet."""
+    return support.sole_points(body, positions, orientations)[:, :, 2].min()
+
+
+@njit(cache=True)
+def stepped(start_m, finish_m, share, lift_m):
+    """An ankle on its way from one place to another, lifted on an arc: share in [0, 1]; at rest at both ends.
+
+    Along the ground by ease-in ease-out, up by sin^2, so that it leaves and meets the ground without speed.
+    """
+    ease = share * share * (3.0 - 2.0 * share)
+    x, y, z = vector.mix(start_m, finish_m, ease)
+    up = math.sin(math.pi * share)
+    return (x, y, z + lift_m * up * up)
