@@ -71,6 +71,7 @@ class Block(NamedTuple):
     arm_share: Annotated[float, Constant("1", "A3.4", "of the arm's length that the far reach may use")] = 0.97
     clearance_m: Annotated[float, Constant("m", "A3.4", "palm from the target, along the line, at least")] = 0.20
     offset_m: Annotated[float, Constant("m", "A3.4", "each palm to its own side of the line")] = 0.08
+    offset_fade: Annotated[float, Constant("1", "A3.4", "cosine, shoulders to across the line, below which the offset fades")] = 0.25
     swivel_small_rad: Annotated[float, Constant("rad", "3.2.5", "elbow away from down, control 0")] = radians(70)
     swivel_large_rad: Annotated[float, Constant("rad", "3.2.5", "elbow away from down, control 1")] = radians(10)
     soften_m: Annotated[float, Constant("m", "A3.4", "width over which reach, clearance and plane meet")] = 0.02
@@ -109,7 +110,7 @@ class Balance(NamedTuple):
     """Static balance and bracing (3.3), and how the feet are planted for it."""
 
     brace_m: Annotated[float, Constant("m", "3.3", "COM wanted this far towards the threat")] = 0.10
-    leg_share: Annotated[float, Constant("1", "A4", "of a leg's length that planting may use")] = 0.995
+    leg_share: Annotated[float, Constant("1", "A4", "of a leg's length that planting may use")] = 0.99
     lift_over_m: Annotated[float, Constant("m", "A4", "a foot that moves farther is lifted on an arc")] = 0.03
     lift_height_m: Annotated[float, Constant("m", "A4", "height of that arc")] = 0.05
     foot_tolerance_m: Annotated[float, Constant("m", "A4", "planted feet end where they were planted within this")] = 1e-4

@@ -1,0 +1,186 @@
+"""One evaluation: the start pose, its pelvis moved, lean, turn, feet planted, recoil, block. Hermens 2006, 3.2 and 3.3.
+
+The feet are planted after the turn, which turns the pelvis and would drag them.
+"""
+
+from __future__ import annotations
+
+import math
+
+from numba import njit
+
+from behaviours.perceived import target_centre
+from behaviours.rules import block, lean, recoil, turn, wrap
+from behaviours.rules.controls import LEAN, REACH_LEFT, RECOIL, SWIVEL_LEFT, TURN
+from engine.body.limb_ik import DOWN, KEEP, apply_arm, apply_leg, place_children, turn_hand_to
+from engine.body.limits import clamp_rotation
+from engine.body.skeleton import (
+    ANKLES,
+    BACK,
+    CLAVICLES,
+    ELBOWS,
+    HEAD,
+    HIPS,
+    JOINT_COUNT,
+    KNEES,
+    NECK,
+    PELVIS,
+    SHOULDERS,
+    TOES,
+    WAIST,
+    WRISTS,
+)
+from engine.maths import quaternion, vector
+
+HAND_PASSES = 2  # the hand's turn moves the palm, the arm follows, the hand turns again: 2 mm off after the second
+
+
+@njit(cache=True)
+def apply_rules(task, pelvis_shift, controls, soft_m, posed):
+    """Writes the pose that seven controls (7,) and a shift of the pelvis (3,) give. soft_m: see limb_ik.soft_reach."""
+    place_trunk(task, pelvis_shift, controls, posed)
+    for side in range(2):
+        plant_leg(task, side, soft_m, posed)
+        guard(task, side, controls, posed)
+
+
+@njit(cache=True)
+def place_trunk(task, pelvis_shift, controls, posed):
+    """The pelvis moved, then lean and turn, within the joints' limits; the trunk, neck and head placed in the world."""
+    start, threat, rules = task.start, task.threat, task.rules
+    for j in range(JOINT_COUNT):
+        for k in range(4):
+            posed.rotations[j, k] = start.rotations[j, k]
+    travel = quaternion.unrotate(quaternion.about_z(start.heading_rad), threat.direction)
+    lean.lean_away(
+        posed.rotations, start.orientations, start.heading_rad, travel, controls[LEAN], rules.lean_turn,
+        threat.head_weight, threat.pelvis_weight, rules.pelvis.lean_sign,
+    )  # fmt: skip
+    turn.turn_away(posed.rotations, task.choices.turn_rad, controls[TURN], rules.lean_turn)
+    for k in range(3):
+        posed.positions[PELVIS, k] = start.root_m[k] + pelvis_shift[k]
+    for k in range(4):
+        posed.orientations[PELVIS, k] = posed.rotations[PELVIS, k]
+    offset_m = task.body.offset_m
+    for joint in (WAIST, BACK, NECK):
+        _clamp(start, posed, joint)
+    place_children(offset_m, posed.rotations, posed.positions, posed.orientations, PELVIS, WAIST)
+    place_children(offset_m, posed.rotations, posed.positions, posed.orientations, WAIST, BACK)
+    place_children(offset_m, posed.rotations, posed.positions, posed.orientations, BACK, NECK)
+    place_children(offset_m, posed.rotations, posed.positions, posed.orientations, NECK, HEAD)
+
+
+@njit(cache=True)
+def _clamp(start, posed, joint):
+    q = clamp_rotation(start.low_rad[joint], start.high_rad[joint], posed.rotations[joint])
+    posed.rotations[joint, 0], posed.rotations[joint, 1], posed.rotations[joint, 2], posed.rotations[joint, 3] = q
+
+
+@njit(cache=True)
+def _place(task, posed, parent, joint):
+    place_children(task.body.offset_m, posed.rotations, posed.positions, posed.orientations, parent, joint)
+
+
+@njit(cache=True)
+def plant_leg(task, side, soft_m, posed):
+    """A held foot is put where it stands by leg IK; the knee keeps pointing where it did in the world, over the foot."""
+    hip, knee, ankle, toe = HIPS[side], KNEES[side], ANKLES[side], TOES[side]
+    feet, start = task.feet, task.start
+    posed.foot_miss_m[side] = 0.0
+    if feet.held[side]:
+        # the pelvis turns away over a foot that stays: the thigh starts from its own place in the world, not the pelvis's
+        thigh = quaternion.multiply(quaternion.conjugate(posed.orientations[PELVIS]), start.orientations[hip])
+        for k in range(4):
+            posed.rotations[hip, k] = thigh[k]
+            posed.rotations[toe, k] = feet.toe[side, k]
+    _place(task, posed, PELVIS, hip)
+    _place(task, posed, hip, knee)
+    _place(task, posed, knee, ankle)
+    if feet.held[side]:
+        posed.foot_miss_m[side] = apply_leg(
+            task.body, posed.rotations, posed.positions, posed.orientations, side,
+            feet.ankle_m[side], feet.turned[side], KEEP, soft_m,
+        )  # fmt: skip
+    else:
+        _place(task, posed, ankle, toe)
+
+
+@njit(cache=True)
+def guard(task, side, controls, posed):
+    """Recoil and block of one side: the clavicle raised, the palm put where it belongs, the elbow at its swivel."""
+    start, rules = task.start, task.rules
+    clavicle, shoulder, elbow, wrist = CLAVICLES[side], SHOULDERS[side], ELBOWS[side], WRISTS[side]
+    recoil.raise_clavicle(posed.rotations, side, controls[RECOIL], rules.recoil)
+    _clamp(start, posed, clavicle)
+    _place(task, posed, BACK, clavicle)
+    _place(task, posed, clavicle, shoulder)
+    _place(task, posed, shoulder, elbow)
+    _place(task, posed, elbow, wrist)
+    palm, hand, swivel = guard_goal(task, side, controls, posed)
+    for _ in range(HAND_PASSES):
+        put_palm(task, side, palm, hand, swivel, posed)
+    held = vector.add(
+        posed.positions[wrist], quaternion.rotate(posed.orientations[wrist], task.body.palm_m[side])
+    )
+    posed.palms[side, 0], posed.palms[side, 1], posed.palms[side, 2] = held
+
+
+@njit(cache=True)
+def guard_goal(task, side, controls, posed):
+    """Where one palm is wanted, how the hand is turned (world) and the elbow's swivel: block, wrap, or a mixture."""
+    start, threat, choices = task.start, task.threat, task.choices
+    b, w, p = task.rules.block, task.rules.wrap, task.rules.pelvis
+    reach_control, swivel_control = controls[REACH_LEFT + side], controls[SWIVEL_LEFT + side]
+    head_reach = block.reach_m(reach_control, b.reach_far_m, b.reach_near_m, start.arm_m[side], b.arm_share)
+    pelvis_reach = block.reach_m(reach_control, p.reach_far_m, p.reach_near_m, start.arm_m[side], b.arm_share)
+    palm = block.palm_target(
+        side,
+        posed.positions[SHOULDERS[side]],
+        threat.head_weight * head_reach + threat.pelvis_weight * pelvis_reach,
+        target_centre(threat.target_joint, threat.target_offset_m, posed.positions, posed.orientations),
+        threat.line_point_m,
+        threat.tangent,
+        choices.across,
+        quaternion.rotate(posed.orientations[BACK], (1.0, 0.0, 0.0)),
+        b.clearance_m + threat.excess_radius_m,
+        b.offset_m,
+        b.soften_m,
+    )
+    hand = block.hand_facing(side, vector.scale(threat.tangent, -1.0), choices.fingers)
+    swivel = block.swivel_rad(swivel_control, b.swivel_small_rad, b.swivel_large_rad)
+    if choices.wrap > 0.0:
+        head = posed.orientations[HEAD]
+        centre = vector.add(posed.positions[HEAD], quaternion.rotate(head, start.head_centre_m))
+        behind = wrap.wrapped_palm(side, centre, head, start.head_radius_m, w)
+        normal, fingers = wrap.wrapped_hand(side, head, w)
+        palm = wrap.around_head(vector.mix(palm, behind, choices.wrap), centre, start.head_radius_m + w.palm_gap_m)
+        hand = quaternion.slerp(hand, block.hand_facing(side, normal, fingers), choices.wrap)
+        swivel += (w.swivel_rad - swivel) * choices.wrap
+    return palm, hand, swivel
+
+
+@njit(cache=True)
+def put_palm(task, side, palm, hand, swivel, posed):
+    """Moves the arm so that the palm, as the hand is turned now, is on its target; then turns the hand as far as it goes."""
+    body, start = task.body, task.start
+    clavicle, shoulder, elbow, wrist = CLAVICLES[side], SHOULDERS[side], ELBOWS[side], WRISTS[side]
+    at = vector.subtract(palm, quaternion.rotate(posed.orientations[wrist], body.palm_m[side]))
+    apply_arm(body, posed.rotations, posed.positions, posed.orientations, side, at, swivel, DOWN)
+    turn_hand(task, side, hand, posed)
+
+
+@njit(cache=True)
+def turn_hand(task, side, hand, posed):
+    """Gives the hand a world orientation within the limits: what turns about the forearm is the forearm's to do."""
+    start, elbow, wrist = task.start, ELBOWS[side], WRISTS[side]
+    wanted = quaternion.multiply(quaternion.conjugate(posed.orientations[elbow]), hand)
+    # wanted = twist * swing, the forearm turning first: the split of the inverse, inverted
+    _, twist = quaternion.swing_twist(quaternion.conjugate(wanted))
+    turned = quaternion.multiply(posed.rotations[elbow], quaternion.conjugate(twist))
+    posed.rotations[elbow, 0], posed.rotations[elbow, 1], posed.rotations[elbow, 2], posed.rotations[elbow, 3] = turned
+    _clamp(start, posed, elbow)
+    _place(task, posed, SHOULDERS[side], elbow)
+    swing = quaternion.multiply(quaternion.conjugate(posed.orientations[elbow]), hand)
+    posed.rotations[wrist, 0], posed.rotations[wrist, 1], posed.rotations[wrist, 2], posed.rotations[wrist, 3] = swing
+    _clamp(start, posed, wrist)
+    _place(task, posed, elbow, wrist)

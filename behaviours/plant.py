@@ -1,0 +1,69 @@
+"""Both feet on the ground before the rules run (Hermens 2006, 3.3; specification A4): where each foot stands.
+
+A foot that is planted at perception stays. One in the air goes to the nearest ground that its leg reaches, below where the
+look-ahead has carried it; it is left in the air only where the hip is too high.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from numba import njit
+
+from behaviours.task import FeetPlan
+from engine.body.footing import leg_length_m, nearest_footing
+from engine.body.skeleton import ANKLES, HIPS, TOES, Body
+from engine.maths import quaternion, vector
+
+PULLS = 30  # alternating projections: two legs that both fall short agree to a fraction of a millimetre
+
+
+@njit(cache=True)
+def pull_pelvis(body, positions, feet, leg_share):
+    """(3,) the least shift of the pelvis, metres, that brings every held foot within its share of the leg's length.
+
+    positions (J, 3): hips of the rules pose. The look-ahead carries the pelvis out of the planted leg's reach in over a
+    third of the frames of a walk; it is drawn back along the leg, which mostly lowers it.
+    """
+    shift = np.zeros(3)
+    for _ in range(PULLS):
+        for side in range(2):
+            hip, ankle = positions[HIPS[side]], feet.ankle_m[side]
+            leg = (hip[0] + shift[0] - ankle[0], hip[1] + shift[1] - ankle[1], hip[2] + shift[2] - ankle[2])
+            long, reach = vector.length(leg), leg_length_m(body, side) * leg_share
+            if feet.held[side] and long > reach:
+                for k in range(3):
+                    shift[k] += leg[k] * (reach / long - 1.0)
+    return shift
+
+
+def stand_where_planted(planted, positions, orientations, rotations) -> FeetPlan:
+    """The plan that holds every planted foot exactly where a pose (J, ...) has it; the other is not held."""
+    ankles, toes = list(ANKLES), list(TOES)
+    return FeetPlan(
+        positions[ankles].copy(), orientations[ankles].copy(), rotations[toes].copy(), np.array(planted, bool), np.zeros(2)
+    )
+
+
+def set_down(body: Body, feet: FeetPlan, hips_m, ahead_positions, ahead_orientations, leg_share: float) -> FeetPlan:
+    """The plan with the feet that are in the air set down where they reach the ground: flat, heading as they will head.
+
+    hips_m (2, 3): of the rules pose; ahead_... (J, ...): the clip at the look-ahead, which says where the feet are going.
+    """
+    feet = FeetPlan(*(array.copy() for array in feet))
+    positions = np.ascontiguousarray(ahead_positions)
+    positions[list(HIPS)] = hips_m
+    for side in range(2):
+        if not feet.held[side]:
+            spare_m = leg_length_m(body, side) * (1.0 - leg_share)
+            place, turned, reached = nearest_footing(body, positions, ahead_orientations, side, 0.0, spare_m)
+            if reached:
+                feet.ankle_m[side], feet.turned[side] = place, turned
+                feet.toe[side] = quaternion.IDENTITY
+                feet.held[side] = True
+    return feet
+
+
+def steps_m(feet: FeetPlan, now_positions: np.ndarray) -> np.ndarray:
+    """(2,) how far each held foot goes from where it is at perception (J, 3); beyond 3 cm it is lifted, never dragged."""
+    away = feet.ankle_m - now_positions[list(ANKLES)]
+    return np.where(feet.held, np.sqrt(np.sum(away * away, axis=1)), 0.0)

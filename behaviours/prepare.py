@@ -1,0 +1,180 @@
+"""Everything that is settled before a protective pose is worked out: the start pose, the feet, what is chosen once."""
+
+from __future__ import annotations
+
+
+
+import numpy as np
+from numba import njit
+
+from behaviours import plant
+from behaviours.apply_rules import place_trunk
+from behaviours.perceived import NO_JOINT, PerceivedThreat, head_centre_m, head_radius_m, target_centre
+from behaviours.rules.controls import controls_from_threat
+from behaviours.rules.turn import turn_side, wanted_turn
+from behaviours.rules.wrap import wrap_share
+from behaviours.settings import Settings
+from behaviours.task import Choices, FeetPlan, Posed, Rules, Start, Task, new_posed
+from engine.body.kinematics import joints_of
+from engine.body.limits import components
+from engine.body.skeleton import (
+    BACK,
+    ELBOWS,
+    HEAD,
+    HIPS,
+    JOINT_COUNT,
+    LEFT_SHOULDER,
+    PELVIS,
+    RIGHT_SHOULDER,
+    WRISTS,
+    Body,
+    Pose,
+)
+from engine.maths import quaternion, vector
+
+LEG_JOINTS = 4  # hip, knee, ankle, toe, one after the other
+UP = (0.0, 0.0, 1.0)
+
+
+def prepare(
+    body: Body,
+    pose_now: Pose,
+    pose_ahead: Pose,
+    planted,
+    threat: PerceivedThreat,
+    settings: Settings,
+    previous_turn_side: float = 0.0,
+    landing: bool = False,
+) -> Task:
+    """The task of protecting against a threat perceived in `pose_now`, world poses, before any rule has acted.
+
+    pose_ahead: the clip 1/6 s later, where the pelvis and a foot in the air are taken from. planted (2,): the feet that stand
+    at perception. With `landing`, pose_ahead is the clip's next landing instead, `planted` the feet that stand *there*,
+    and they are held where that pose has them.
+    """
+    now_positions, now_orientations = joints_of(body, pose_now)
+    ahead_positions, ahead_orientations = joints_of(body, pose_ahead)
+    feet = plant.stand_where_planted(
+        planted, *((ahead_positions, ahead_orientations, pose_ahead.rotations) if landing
+                   else (now_positions, now_orientations, pose_now.rotations))
+    )  # fmt: skip
+    legs_ahead = [landing or not stands for stands in feet.held]
+    start = start_pose(body, pose_now, pose_ahead, legs_ahead)
+    task = Task(body, start, feet, threat, _no_choices(), rules_of(settings))
+    task = task._replace(choices=choose_turn(task, settings, previous_turn_side))
+
+    # the pelvis turns and leans, then is drawn within reach of the planted feet, then the foot in the air is set down
+    controls = controls_from_threat(threat.speed_norm, threat.size_norm)
+    posed = new_posed()
+    place_hips(task, controls, posed)
+    leg_share = settings.balance.leg_share
+    shift = plant.pull_pelvis(body, posed.positions, feet, leg_share)
+    task = task._replace(start=start._replace(root_m=start.root_m + shift))
+    if feet.held.any():
+        hips_m = posed.positions[list(HIPS)] + shift
+        feet = plant.set_down(body, feet, hips_m, ahead_positions, ahead_orientations, leg_share)
+    task = task._replace(feet=feet._replace(step_m=plant.steps_m(feet, now_positions)))
+    place_hips(task, controls, posed)
+    return task._replace(choices=choose_guard(task, posed))
+
+
+def start_pose(body: Body, pose_now: Pose, pose_ahead: Pose, legs_ahead) -> Start:
+    """The pelvis, and the legs asked for, from the clip ahead; everything else from the pose at perception."""
+    rotations = np.array(pose_now.rotations, float)
+    rotations[PELVIS] = pose_ahead.rotations[PELVIS]
+    for side in range(2):
+        if legs_ahead[side]:
+            leg = slice(HIPS[side], HIPS[side] + LEG_JOINTS)
+            rotations[leg] = pose_ahead.rotations[leg]
+    root_m = np.array(pose_ahead.root_m, float)
+    _, orientations = joints_of(body, Pose(root_m, rotations))
+    low, high = np.empty((JOINT_COUNT, 3)), np.empty((JOINT_COUNT, 3))
+    _widened_limits(body.limit_low_rad, body.limit_high_rad, rotations, low, high)
+    arm = np.sqrt(np.sum(body.offset_m[list(ELBOWS + WRISTS)] ** 2, axis=1))
+    return Start(
+        root_m,
+        rotations,
+        orientations,
+        float(quaternion.heading(pose_now.rotations[PELVIS])),
+        low,
+        high,
+        (float(arm[0] + arm[2]), float(arm[1] + arm[3])),
+        head_centre_m(body),
+        head_radius_m(body),
+    )
+
+
+@njit(cache=True)
+def _widened_limits(low, high, rotations, out_low, out_high):
+    """A clip's own excess is kept: each limit it oversteps is moved out to where the clip stands."""
+    for j in range(JOINT_COUNT):
+        own = components(rotations[j])
+        for k in range(3):
+            out_low[j, k] = min(low[j, k], own[k])
+            out_high[j, k] = max(high[j, k], own[k])
+
+
+def rules_of(settings: Settings) -> Rules:
+    return Rules(settings.lean_turn, settings.recoil, settings.block, settings.wrap, settings.pelvis)
+
+
+def _no_choices() -> Choices:
+    return Choices(-1.0, 0.0, (0.0, 1.0, 0.0), UP, 0.0)
+
+
+@njit(cache=True)
+def place_hips(task, controls, posed):
+    """Trunk and hips of the rules pose with the pelvis where the start pose has it."""
+    place_trunk(task, np.zeros(3), controls, posed)
+    for side in range(2):
+        hip = HIPS[side]
+        at = vector.add(
+            posed.positions[PELVIS], quaternion.rotate(posed.orientations[PELVIS], task.body.offset_m[hip])
+        )
+        posed.positions[hip, 0], posed.positions[hip, 1], posed.positions[hip, 2] = at
+
+
+def choose_turn(task: Task, settings: Settings, previous_turn_side: float) -> Choices:
+    """Which way to turn, and how far it would have to be, from where the face points in the start pose."""
+    heading = task.start.heading_rad
+    travel = quaternion.unrotate(quaternion.about_z(heading), task.threat.direction)
+    side = turn_side(travel, settings.lean_turn.dead_ahead_rad, float(previous_turn_side))
+    head_yaw = quaternion.heading(task.start.orientations[HEAD]) - heading
+    return _no_choices()._replace(turn_side=side, turn_rad=wanted_turn(head_yaw, travel, side))
+
+
+def choose_guard(task: Task, posed: Posed) -> Choices:
+    """How the hands stand to the line, from the rules pose before block: sides, fingers, and how far the arms wrap."""
+    tangent = task.threat.tangent
+    torso_x = quaternion.rotate(posed.orientations[BACK], (1.0, 0.0, 0.0))
+    shoulders = vector.subtract(*(shoulder_before_recoil(task, posed, joint) for joint in (LEFT_SHOULDER, RIGHT_SHOULDER)))
+    shoulders = vector.unit((shoulders[0], shoulders[1], 0.0), (0.0, 1.0, 0.0))
+    across = vector.unit(vector.cross(tangent, UP), shoulders)
+    # a line that comes along the shoulders has no left hand's side: there the offset goes smoothly through zero
+    agree = vector.inner(across, shoulders) / max(task.rules.block.offset_fade, 1e-9)
+    agree = min(1.0, max(-1.0, agree))
+    upright = vector.reject(UP, tangent)
+    steep = max(0.0, 0.3 - vector.length(upright))
+    fingers = vector.unit(vector.add(upright, vector.scale(vector.reject(torso_x, tangent), steep)), UP)
+    towards = vector.scale(task.threat.direction, -1.0)
+    return task.choices._replace(
+        across=vector.scale(across, agree * (1.5 - 0.5 * agree * agree)),
+        fingers=fingers,
+        wrap=float(wrap_share(torso_x, towards, task.rules.wrap)),
+    )
+
+
+def shoulder_before_recoil(task: Task, posed: Posed, shoulder: int):
+    """Where a shoulder is on the turned trunk with the clavicle as the clip has it."""
+    body, start, clavicle = task.body, task.start, shoulder - 1
+    at = vector.add(posed.positions[BACK], quaternion.rotate(posed.orientations[BACK], body.offset_m[clavicle]))
+    turned = quaternion.multiply(posed.orientations[BACK], start.rotations[clavicle])
+    return vector.add(at, quaternion.rotate(turned, body.offset_m[shoulder]))
+
+
+def aim_point(task: Task) -> tuple[float, float, float]:
+    """The target's centre in the rules pose before block: where a scripted threat goes. World metres."""
+    posed = new_posed()
+    controls = controls_from_threat(task.threat.speed_norm, task.threat.size_norm)
+    place_hips(task, controls, posed)
+    return target_centre(task.threat.target_joint, task.threat.target_offset_m, posed.positions, posed.orientations)

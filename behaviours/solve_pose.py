@@ -1,0 +1,127 @@
+"""The two solvers of the sustained pose: the thesis's quasi-Newton search, and bounded least squares beside it."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+from numba import njit
+
+from behaviours import minimise
+from behaviours.least_squares import bounded_step, normal_equations
+from behaviours.rules.controls import CONTROL_COUNT
+from behaviours.total_error import RESIDUALS, TERMS, VARIABLES, BEGIN, residuals_into, total_error
+
+LEAST_SQUARES_OFFSET = 1e-4  # its derivatives are of residuals, not of their squares: a fine difference is safe
+LEAST_DAMPING, MOST_DAMPING = 1e-9, 1e6
+
+
+class Solution(NamedTuple):
+    """Where a solver ended, and how."""
+
+    variables: np.ndarray  # (10,)
+    value: float
+    value_initial: float
+    iterations: int
+    evaluations: int
+    restarts: int
+    stop: int  # index into minimise.STOPS
+
+
+@njit(cache=True)
+def solve_bfgs(task, reference, form, start, posed, offset, tolerance, iterations, restarts):
+    """BFGS on the total error from `start` (10,), see behaviours.minimise; `form` as in total_error."""
+    controls, residuals = np.empty(CONTROL_COUNT), np.empty(RESIDUALS)
+    search = minimise.new_search(start)
+    initial = np.nan
+    while not minimise.finished(search):
+        residuals_into(task, reference, search.trial, controls, posed, residuals)
+        value = total_error(residuals, reference, form)
+        if search.counts[minimise.EVALUATIONS] == 0:
+            initial = value
+        minimise.tell(search, value, offset, tolerance, iterations, restarts)
+    counts = search.counts
+    return Solution(
+        search.point,
+        search.numbers[minimise.VALUE],
+        initial,
+        counts[minimise.ITERATIONS],
+        counts[minimise.EVALUATIONS],
+        counts[minimise.RESTARTS],
+        counts[minimise.STOP],
+    )
+
+
+@njit(cache=True)
+def _weigh(reference, residuals):
+    for term in range(len(TERMS)):
+        for i in range(BEGIN[term], BEGIN[term + 1]):
+            residuals[i] *= reference.weights[term]
+
+
+@njit(cache=True)
+def _jacobian_into(task, reference, point, low, high, trial, controls, posed, ahead, behind, jacobian):
+    """Central differences of the weighted residuals; one-sided against a bound. Two evaluations a variable."""
+    trial[:] = point
+    for j in range(VARIABLES):
+        up, down = min(point[j] + LEAST_SQUARES_OFFSET, high[j]), max(point[j] - LEAST_SQUARES_OFFSET, low[j])
+        trial[j] = up
+        residuals_into(task, reference, trial, controls, posed, ahead)
+        trial[j] = down
+        residuals_into(task, reference, trial, controls, posed, behind)
+        trial[j] = point[j]
+        for i in range(RESIDUALS):
+            jacobian[i, j] = (ahead[i] - behind[i]) / (up - down)
+        for term in range(len(TERMS)):
+            for i in range(BEGIN[term], BEGIN[term + 1]):
+                jacobian[i, j] *= reference.weights[term]
+
+
+@njit(cache=True)
+def solve_least_squares(task, reference, start, posed, tolerance, iterations):
+    """Levenberg-Marquardt with controls kept in [0, 1], on the `squares` form, from `start` (10,)."""
+    low, high = np.full(VARIABLES, -np.inf), np.full(VARIABLES, np.inf)
+    low[3:], high[3:] = 0.0, 1.0
+    controls, point = np.empty(CONTROL_COUNT), np.minimum(np.maximum(start, low), high)
+    residuals, trial_residuals = np.empty(RESIDUALS), np.empty(RESIDUALS)
+    behind, trial, step = np.empty(RESIDUALS), np.empty(VARIABLES), np.empty(VARIABLES)
+    jacobian, matrix, slope = np.empty((RESIDUALS, VARIABLES)), np.empty((VARIABLES, VARIABLES)), np.empty(VARIABLES)
+    residuals_into(task, reference, point, controls, posed, residuals)
+    _weigh(reference, residuals)
+    value = initial = _sum_of_squares(residuals)
+    evaluations, done, damping, stop = 1, 0, 1e-3, minimise.OUT_OF_ITERATIONS
+    while done < iterations:
+        _jacobian_into(task, reference, point, low, high, trial, controls, posed, trial_residuals, behind, jacobian)
+        evaluations += 2 * VARIABLES
+        done += 1
+        normal_equations(jacobian, residuals, matrix, slope)
+        while True:
+            bounded_step(matrix, slope, point, low, high, damping, step)
+            trial[:] = point + step
+            residuals_into(task, reference, trial, controls, posed, trial_residuals)
+            evaluations += 1
+            _weigh(reference, trial_residuals)
+            trial_value = _sum_of_squares(trial_residuals)
+            if trial_value < value or damping >= MOST_DAMPING:
+                break
+            damping *= 10.0
+        if not trial_value < value:
+            stop = minimise.LINE_SEARCH
+            break
+        decrease = value - trial_value
+        point[:] = trial
+        residuals[:] = trial_residuals
+        value = trial_value
+        damping = max(0.1 * damping, LEAST_DAMPING)
+        if decrease <= tolerance * value:
+            stop = minimise.CONVERGED
+            break
+    return Solution(point, value, initial, done, evaluations, 0, stop)
+
+
+@njit(cache=True)
+def _sum_of_squares(residuals):
+    total = 0.0
+    for i in range(len(residuals)):
+        total += residuals[i] * residuals[i]
+    return total

@@ -1,0 +1,215 @@
+"""The sustained pose (Hermens 2006, 3.3): the rules, then the search that balances it and braces it towards the threat."""
+
+from __future__ import annotations
+
+from enum import IntEnum
+from typing import NamedTuple
+
+import numpy as np
+from numba import njit
+
+from behaviours import minimise
+from behaviours.apply_rules import apply_rules
+from behaviours.perceived import PerceivedThreat
+from behaviours.prepare import prepare
+from behaviours.rules.controls import CONTROL_COUNT, controls_from_threat
+from behaviours.settings import Settings
+from behaviours.solve_pose import Solution, solve_bfgs, solve_least_squares
+from behaviours.task import Choices, FeetPlan, Posed, Task, new_posed
+from behaviours.total_error import (
+    FORMS,
+    RESIDUALS,
+    Reference,
+    residuals_into,
+    term_errors,
+    total_error,
+)
+from engine.body.kinematics import centre_of_mass
+from engine.body.skeleton import BACK, HIPS, PELVIS, WAIST, Body, Pose
+from engine.body.footing import leg_length_m
+from engine.body.support import inside, polygon_of
+from engine.maths import vector
+
+EXACT = 0.0  # leg reach without the soft end: for poses that are shown
+LOWERINGS = 20  # each closes what is missing but for the leg's slant
+
+
+class Case(IntEnum):
+    """How balancing and bracing ended (fig. 3.10): the COM against the support polygon, before and after."""
+
+    BALANCED = 0  # case 1: inside it
+    BRACED_OUT = 1  # case 2: out, on the threat's side, which the impact is expected to mend
+    UNRECOVERED = 2  # case 3: was out, stays out
+    MENDED = 3  # was out, is in
+    AIRBORNE = 4  # no foot on the ground: the upper body alone
+
+
+class SolverReport(NamedTuple):
+    """What the search did."""
+
+    name: str
+    iterations: int
+    evaluations: int
+    restarts: int
+    stop: str  # one of minimise.STOPS, or "not needed"
+
+
+class Protection(NamedTuple):
+    """A protective pose and everything it was made from. World metres and radians."""
+
+    rules: Pose  # the rules alone
+    sustained: Pose  # balanced and braced
+    controls_initial: np.ndarray  # (7,) see rules.controls
+    controls: np.ndarray  # (7,)
+    com_rules_m: np.ndarray  # (3,) COM_cur
+    com_m: np.ndarray  # (3,) of the sustained pose
+    com_wanted_m: np.ndarray  # (2,) COM_des
+    support_m: np.ndarray  # (m, 2) support polygon of the sustained pose
+    case: Case
+    errors_initial: dict[str, float]  # each term, and the total
+    errors: dict[str, float]
+    choices: Choices
+    feet: FeetPlan
+    solver: SolverReport
+    task: Task
+    reference: Reference
+
+
+def protect(
+    body: Body,
+    pose_now: Pose,
+    pose_ahead: Pose,
+    planted,
+    threat: PerceivedThreat,
+    settings: Settings,
+    previous_turn_side: float = 0.0,
+    landing: bool = False,
+) -> Protection:
+    """The pose in which to meet a threat. Arguments as for `prepare`."""
+    task = prepare(body, pose_now, pose_ahead, planted, threat, settings, previous_turn_side, landing)
+    return solve_protection(task, settings)
+
+
+def solve_protection(task: Task, settings: Settings) -> Protection:
+    """Rules pose, search and report, for a task that is prepared."""
+    controls = controls_from_threat(task.threat.speed_norm, task.threat.size_norm)
+    posed = new_posed()
+    rules_shift = pose_exactly(task, np.zeros(3), controls, posed, settings.balance.foot_tolerance_m)
+    # the rules pose is the start: what it took to plant its feet exactly belongs to it
+    task = task._replace(start=task.start._replace(root_m=task.start.root_m + rules_shift))
+    rules, com_rules = _pose_of(posed), np.array(centre_of_mass(task.body, posed.positions, posed.orientations))
+    reference = refer_to(task, posed, com_rules, controls, settings)
+    support_rules = polygon_of(task.body, posed.positions, posed.orientations, task.feet.held)
+
+    start = np.concatenate([np.zeros(3), controls])
+    residuals, scratch = np.empty(RESIDUALS), np.empty(CONTROL_COUNT)
+    form = FORMS.index(settings.objective.form)
+    residuals_into(task, reference, start, scratch, posed, residuals)
+    errors_initial = term_errors(residuals) | {"total": float(total_error(residuals, reference, form))}
+    if not task.feet.held.any():
+        return Protection(
+            rules, rules, controls, controls, com_rules, com_rules, np.array(reference.com_wanted_m), support_rules,
+            Case.AIRBORNE, errors_initial, errors_initial, task.choices, task.feet,
+            SolverReport(settings.solver.method, 0, 0, 0, "not needed"), task, reference,
+        )  # fmt: skip
+    solution = solve(task, reference, form, start, posed, settings)
+    shift, controls_end = solution.variables[:3].copy(), np.clip(solution.variables[3:], 0.0, 1.0)
+    shift += pose_exactly(task, shift, controls_end, posed, settings.balance.foot_tolerance_m)
+    sustained, com = _pose_of(posed), np.array(centre_of_mass(task.body, posed.positions, posed.orientations))
+    support = polygon_of(task.body, posed.positions, posed.orientations, task.feet.held)
+    final = np.concatenate([shift, solution.variables[3:]])
+    residuals_into(task, reference, final, scratch, posed, residuals)
+    errors = term_errors(residuals) | {"total": float(solution.value)}
+    case = case_of(inside(support_rules, com_rules[:2]), inside(support, com[:2]))
+    report = SolverReport(
+        settings.solver.method,
+        int(solution.iterations),
+        int(solution.evaluations),
+        int(solution.restarts),
+        minimise.STOPS[solution.stop],
+    )
+    return Protection(
+        rules, sustained, controls, controls_end, com_rules, com, np.array(reference.com_wanted_m), support,
+        case, errors_initial, errors, task.choices, task.feet, report, task, reference,
+    )  # fmt: skip
+
+
+def solve(task: Task, reference: Reference, form: int, start: np.ndarray, posed: Posed, settings: Settings) -> Solution:
+    """Runs the solver that the settings name. Least squares knows only the `squares` form."""
+    s = settings.solver
+    if s.method == "least_squares":
+        return solve_least_squares(task, reference, start, posed, s.tolerance, s.iterations)
+    return solve_bfgs(task, reference, form, start, posed, s.offset, s.tolerance, s.iterations, s.restarts)
+
+
+def refer_to(task: Task, posed: Posed, com_m, controls, settings: Settings) -> Reference:
+    """What the errors are measured from: the rules pose in `posed`, and the COM wanted, once and for all."""
+    o = settings.objective
+    towards = np.array([-task.threat.direction[0], -task.threat.direction[1]])
+    along_ground = float(np.sqrt(np.sum(towards * towards)))
+    if along_ground > 1e-6:  # a threat from straight above asks for no bracing
+        towards = towards / along_ground
+    else:
+        towards = np.zeros(2)
+    wanted = com_m[:2] + settings.balance.brace_m * towards
+    weights = (
+        o.balance_weight, o.hands_weight, o.torso_weight, o.pelvis_height_weight, o.feet_weight,
+        o.control_weight, o.outside_weight,
+    )  # fmt: skip
+    return Reference(
+        (float(wanted[0]), float(wanted[1])),
+        posed.palms.copy(),
+        posed.orientations[[PELVIS, WAIST, BACK]].copy(),
+        float(posed.positions[PELVIS, 2]),
+        controls.copy(),
+        weights,
+        o.smoothing_m,
+    )
+
+
+@njit(cache=True)
+def pose_exactly(task, shift, controls, posed, tolerance_m):
+    """Writes the pose with planted feet where they are planted; returns how far the pelvis had to give (3,), metres.
+
+    The pelvis is lowered by what is missing, which leaves the COM over the same ground. Only where the foot lies farther
+    to the side than the leg is long is it drawn towards it.
+    """
+    given = np.zeros(3)
+    apply_rules(task, shift, controls, EXACT, posed)
+    for _ in range(LOWERINGS):
+        missing = 0.0
+        for side in range(2):
+            if task.feet.held[side] and posed.foot_miss_m[side] > tolerance_m:
+                missing = max(missing, posed.foot_miss_m[side])
+                _give(task, side, posed, given)
+        if missing == 0.0:
+            break
+        apply_rules(task, shift + given, controls, EXACT, posed)
+    return given
+
+
+@njit(cache=True)
+def _give(task, side, posed, given):
+    """Adds to `given` what brings one hip within reach of its foot."""
+    hip, ankle = posed.positions[HIPS[side]], task.feet.ankle_m[side]
+    reach = leg_length_m(task.body, side) - 1e-6
+    x, y, z = hip[0] - ankle[0], hip[1] - ankle[1], hip[2] - ankle[2]
+    level = reach * reach - x * x - y * y
+    if level > 0.25 * reach * reach:
+        given[2] = min(given[2], given[2] + np.sqrt(level) - z)
+        return
+    long = vector.length((x, y, z))
+    given[0] += x * (reach / long - 1.0)
+    given[1] += y * (reach / long - 1.0)
+    given[2] += z * (reach / long - 1.0)
+
+
+def case_of(inside_before: bool, inside_after: bool) -> Case:
+    """Names the outcome of fig. 3.10. The COM moves towards the threat only, so out after in is out on the threat's side."""
+    if inside_after:
+        return Case.BALANCED if inside_before else Case.MENDED
+    return Case.BRACED_OUT if inside_before else Case.UNRECOVERED
+
+
+def _pose_of(posed: Posed) -> Pose:
+    return Pose(posed.positions[PELVIS].copy(), posed.rotations.copy())
