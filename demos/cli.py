@@ -12,6 +12,7 @@ import importlib
 import os
 import sys
 import traceback
+from collections.abc import Callable
 from typing import NoReturn
 
 from engine.core.errors import EXIT_GOOD, EXIT_INTERRUPTED, BadInput, BraceError
@@ -43,12 +44,15 @@ def build_parser() -> argparse.ArgumentParser:
 
 def main(argv: list[str] | None = None) -> int:
     """Runs one command and returns its exit code; nothing that a user can cause leaves as a traceback."""
-    argv = sys.argv[1:] if argv is None else argv
+    words = sys.argv[1:] if argv is None else argv
+    return guarded(lambda: _run(words))
+
+
+def guarded(work: Callable[[], int | None]) -> int:
+    """Does the work and returns its exit code; every failure becomes one line and the code that stands for it."""
     _prepare_process()
     try:
-        _check_word(argv)
-        args = build_parser().parse_args(argv)
-        code = args.run(args)
+        code = work()
         sys.stdout.flush()  # a reader that went away is noticed here, not at interpreter exit
         return EXIT_GOOD if code is None else code
     except BraceError as trouble:
@@ -68,6 +72,12 @@ def main(argv: list[str] | None = None) -> int:
         return EXIT_INTERNAL
 
 
+def _run(words: list[str]) -> int | None:
+    _check_word(words)
+    args = build_parser().parse_args(words)
+    return args.run(args)
+
+
 def nearest(name: str, known: tuple[str, ...] | list[str]) -> str:
     """`expected one of ...`, all that are known, nearest to the name first."""
     close = difflib.get_close_matches(name, known, n=3, cutoff=0.5)
@@ -83,10 +93,10 @@ def _prepare_process() -> None:
             stream.reconfigure(errors="backslashreplace")
 
 
-def _check_word(argv: list[str]) -> None:
+def _check_word(words: list[str]) -> None:
     """An unknown command is met with its nearest neighbours, which argparse would not offer."""
-    if argv and not argv[0].startswith("-") and argv[0] not in COMMANDS:
-        raise BadInput("usage", f"unknown command {argv[0]!r}; {nearest(argv[0], COMMANDS)}")
+    if words and not words[0].startswith("-") and words[0] not in COMMANDS:
+        raise BadInput("usage", f"unknown command {words[0]!r}; {nearest(words[0], COMMANDS)}")
 
 
 if __name__ == "__main__":

@@ -63,7 +63,7 @@ def _reached(name: str, imports: dict[str, set[str]]) -> set[str]:
 
 
 def _imported(text: str, known: dict[str, Path]) -> set[str]:
-    found = set()
+    found: set[str] = set()
     for package, wrapped, names, plain in _IMPORT.findall(text):
         base = (package or plain).replace(".", "/")
         words = [word.split()[0] for word in (wrapped or names).split(",") if word.split()]

@@ -8,21 +8,21 @@ from __future__ import annotations
 import sys
 import time
 
+from demos.cli import guarded
 from demos.kernels import terminal_line, warm_up
 from engine.core.errors import BraceError
 
 DONE = "set-up.done"
 
 
-def main() -> int:
-    """Fetches and compiles what is missing. Always 0: whatever is still missing then speaks for itself when needed."""
+def main() -> None:
+    """Fetches and compiles what is missing. Clips that stay missing are no failure here: they are named when needed."""
     complete = _fetch_clips()
     _compile_kernels()
     if complete:
         from engine.clips.library import cache_folder
 
         (cache_folder() / DONE).touch()
-    return 0
 
 
 def _fetch_clips() -> bool:
@@ -50,4 +50,4 @@ def _say(line: str) -> None:
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(guarded(main))
