@@ -102,14 +102,6 @@ class DebugDraw:
         for marks in self._all():
             marks.clear()
 
-    def line_arrays(self) -> tuple[np.ndarray, np.ndarray]:
-        """All lines for one draw call: end points (2 N, 3) and their colours (2 N, 4), float32."""
-        if not self.lines:
-            return np.zeros((0, 3), np.float32), np.zeros((0, 4), np.float32)
-        points_m = np.concatenate([line.points_m for line in self.lines])
-        colours = np.repeat([line.colour for line in self.lines], 2, axis=0)
-        return points_m.astype(np.float32), colours.astype(np.float32)
-
     def _all(self) -> tuple[list[Any], ...]:
         return self.lines, self.arrows, self.points, self.polygons, self.labels
 

@@ -16,10 +16,9 @@ def test_marks_are_plain_arrays_with_colours():
     draw.arrow((0, 0, 0), (0, 0, 1), (0.0, 1.0, 0.0, 0.5))
     draw.point((1, 2, 3), 0.05)
     draw.label((1, 2, 3), "head")
-    ends_m, colours = draw.line_arrays()
-    assert ends_m.tolist() == [[0, 0, 0], [1, 0, 0], [0, 0, 0], [0, 0, 1], [0, 0, 1], [0, 1, 1]]
-    assert ends_m.dtype == colours.dtype == np.float32
-    assert colours.tolist() == [[1, 0, 0, 1]] * 2 + [[1, 1, 1, 1]] * 4
+    ends_m = [line.points_m.tolist() for line in draw.lines]
+    assert ends_m == [[[0, 0, 0], [1, 0, 0]], [[0, 0, 0], [0, 0, 1]], [[0, 0, 1], [0, 1, 1]]]
+    assert [line.colour.tolist() for line in draw.lines] == [[1, 0, 0, 1], [1, 1, 1, 1], [1, 1, 1, 1]]
     assert draw.arrows[0].points_m.tolist() == [[0, 0, 0], [0, 0, 1]]
     assert draw.arrows[0].colour.tolist() == [0, 1, 0, 0.5]
     assert (draw.points[0].radius_m, draw.points[0].position_m.tolist()) == (0.05, [1, 2, 3])
@@ -57,4 +56,3 @@ def test_layers_are_shown_and_hidden_by_name():
     draw.clear()
     assert draw.layers() == []
     assert len(shown.points) == 1
-    assert [array.shape for array in draw.line_arrays()] == [(0, 3), (0, 4)]

@@ -124,7 +124,7 @@ def test_keyframes_lie_on_a_grid_from_wherever_the_run_begins():
 
 
 class TimelineMachine(RuleBasedStateMachine):
-    """Running on, going anywhere and throwing at any time always equals one straight run with the throws that remain."""
+    """Running on, going anywhere and throwing at any time equals one straight run with the throws that remain."""
 
     def __init__(self):
         super().__init__()
@@ -157,7 +157,7 @@ class TimelineMachine(RuleBasedStateMachine):
 
 
 TestTimelineMachine = TimelineMachine.TestCase
-TestTimelineMachine.settings = settings(max_examples=15, stateful_step_count=12, deadline=None)
+TestTimelineMachine.settings = settings(max_examples=40, stateful_step_count=12, deadline=None)
 
 
 # --- where states differ ---------------------------------------------------------------------------------------------

@@ -1,4 +1,4 @@
-"""A game too small for a name, for the tests of this room: balls fly, wind pushes them, they bounce, wear out and are gone."""
+"""A game for the tests of this room: balls fly, the wind pushes them, they bounce, wear out and are gone."""
 
 from __future__ import annotations
 
