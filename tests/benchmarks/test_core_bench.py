@@ -1,7 +1,7 @@
 """What the core costs a tick, and that columns are what makes a thousand run like one.
 
-Times are printed by `pytest --benchmark-enable tests/benchmarks`. What must hold on any machine is a ratio of two things
-measured side by side, each at its best of many; the absolute bounds are an order of magnitude wide.
+Times are printed by `pytest --benchmark-enable tests/benchmarks`. What must hold on any machine is a ratio of two
+things measured side by side, each at its best of many; the absolute bounds are an order of magnitude wide.
 """
 
 from __future__ import annotations
@@ -82,9 +82,7 @@ def flying():
 
 
 def _objects():
-    return [
-        Projectile(position_m.copy(), velocity_mps.copy()) for position_m, velocity_mps in zip(*_starts(), strict=True)
-    ]
+    return [Projectile(position_m, velocity_mps) for position_m, velocity_mps in zip(*_starts(), strict=True)]
 
 
 def _fly_each(objects):

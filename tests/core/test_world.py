@@ -2,9 +2,15 @@
 
 from __future__ import annotations
 
+import os
+import subprocess
+import sys
+from pathlib import Path
+
 import numpy as np
 import pytest
 
+from engine.core.journal_file import FORMAT
 from engine.core.rows import DeadEntity
 from engine.core.snapshot import Snapshot
 from engine.core.world import Component, UndeclaredAccess, World, column
@@ -282,3 +288,41 @@ def test_a_snapshot_of_another_kind_of_world_changes_nothing():
         with pytest.raises(ValueError, match="the snapshot was taken"):
             world.restore(stranger.snapshot())
         assert world.digest() == digest
+
+
+# --- the same bits everywhere ----------------------------------------------------------------------------------------
+
+PRINT_DIGEST = """
+from tests.core.toy_world import toy
+world, step = toy()
+for _ in range(200):
+    step(world)
+print(world.digest())
+"""
+
+
+def test_another_process_with_other_hashing_gives_the_same_bits():
+    """Sets and dictionaries keyed by classes and text are ordered otherwise in each of these processes."""
+    root = Path(__file__).resolve().parents[2]
+    world, step = toy()
+    for _ in range(200):
+        step(world)
+    for hash_seed in ("1", "2"):
+        environment = {**os.environ, "PYTHONHASHSEED": hash_seed, "PYTHONPATH": str(root)}
+        ran = subprocess.run(
+            [sys.executable, "-c", PRINT_DIGEST], cwd=root, env=environment, capture_output=True, text=True, check=True
+        )
+        assert ran.stdout.strip() == world.digest()
+
+
+def test_the_layout_of_the_state_is_what_recordings_were_made_with():
+    """If this changes, recordings made before no longer replay: raise `FORMAT` in `journal_file` along with it."""
+    world = World((Flight, Wear), seed=7)
+    for number in range(3):
+        world.spawn(Flight(position_m=(number, 0.1, -0.0)), Wear(bounces=number))
+    world.despawn(world.entity(1))
+    world.emit("clap", world.entity(2), height_m=0.1)
+    world.random("wind").word()
+    world.tick = 5
+    assert FORMAT == 1
+    assert world.digest() == "d9017c3f39a23177b5f4604969d2c892"
