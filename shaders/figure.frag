@@ -1,3 +1,4 @@
+#define TAPS 6     // a body's own shadows are small and curved: fewer places do
 #include "frame.glsl"
 #include "tone.glsl"
 #include "light.glsl"
@@ -11,7 +12,7 @@ out vec4 pixel;
 // Materials of mannequin.py: 0 shell, 1 joints, 2 visor, 3 shoes.
 vec3 albedo_of(float material, vec3 colour) {
     float grey = dot(colour, vec3(0.30, 0.59, 0.11));
-    vec3 dark = mix(vec3(0.055, 0.058, 0.066), colour * 0.30, 0.45 + 0.4 * (max(colour.r, max(colour.g, colour.b)) - grey));
+    vec3 dark = mix(vec3(0.042, 0.047, 0.058), colour * 0.30, clamp(0.10 + 1.1 * (max(colour.r, max(colour.g, colour.b)) - grey), 0.0, 0.85));
     if (material < 0.5) return colour;
     if (material < 1.5) return dark;
     if (material < 2.5) return vec3(0.012, 0.014, 0.018);
@@ -26,9 +27,9 @@ void main() {
     float edge = 1.0 - abs(dot(normal, to_eye));
     vec3 albedo = mix(paint.rgb, albedo_of(material, paint.rgb), 0.55);
     vec3 light = lit_surface(albedo, normal, to_eye, to_light.xyz, 0.85, 0.0);
-    pixel = vec4(displayed(light), clamp(paint.a * (0.78 + 0.75 * edge * edge), 0.0, 1.0));
+    pixel = vec4(displayed(light), clamp(paint.a * (0.92 + 0.9 * edge * edge), 0.0, 1.0));
 #else
-    float shadow = key_light_at(world_m, normal, 2.2);
+    float shadow = key_light_at(world_m, normal, 1.5);
     float gloss = material > 1.5 && material < 2.5 ? 1.0 : 0.12;
     vec3 light = lit_surface(albedo_of(material, paint.rgb), normal, to_eye, to_light.xyz, shadow, gloss);
     // the floor takes light away from what stands close over it

@@ -82,8 +82,8 @@ def follow(camera: Camera, point_m, passed_s: float, half_life_s: float = 0.25) 
 def frame_all(camera: Camera, points_m, size_px, margin: float = 0.08) -> Camera:
     """The nearest place from which every point (N, 3) is in the picture, looking the same way; margin is a share of each side.
 
-    In closed form: each point's view coordinates bound the eye along the four sides of the frustum; the two opposite sides
-    that bind give the depth, their middle gives the shift.
+    Each point's view coordinates bound the eye along the four sides of the frustum; the two opposite sides that bind give
+    the depth in closed form. Sideways the eye is then put where the outermost points are equally far from the centre.
     """
     points = np.asarray(points_m, float).reshape(-1, 3)
     if len(points) == 0:
@@ -91,16 +91,24 @@ def frame_all(camera: Camera, points_m, size_px, margin: float = 0.08) -> Camera
     right, up, forward = camera.axes()
     depth = points @ forward
     tangents = half_tangents(camera, size_px) * (1.0 - 2.0 * margin)
-    shifts, nearest = [], []
-    for axis, tangent in zip((right, up), tangents, strict=True):
-        lateral = points @ axis
-        low, high = np.min(lateral + tangent * depth), np.max(lateral - tangent * depth)
-        shifts.append(0.5 * (low + high))
-        nearest.append((low - high) / (2.0 * tangent))
-    eye_depth = min(min(nearest), float(np.min(depth)) - MIN_DISTANCE_M)
-    eye = shifts[0] * right + shifts[1] * up + eye_depth * forward
+    laterals = (points @ right, points @ up)
+    bounds = [(np.min(x + t * depth), np.max(x - t * depth)) for x, t in zip(laterals, tangents, strict=True)]
+    eye_depth = min((low - high) / (2.0 * t) for (low, high), t in zip(bounds, tangents, strict=True))
+    eye_depth = min(eye_depth, float(np.min(depth)) - MIN_DISTANCE_M)
+    across, upwards = (_centred(x, depth - eye_depth) for x in laterals)
+    eye = across * right + upwards * up + eye_depth * forward
     middle_depth = 0.5 * (np.min(depth) + np.max(depth))
     return replace(camera, eye=tuple(eye), target=tuple(eye + (middle_depth - eye_depth) * forward))
+
+
+def _centred(lateral: np.ndarray, depth: np.ndarray) -> float:
+    """The sideways place of the eye from which the leftmost and the rightmost slope are opposite, by bisection."""
+    low, high = float(np.min(lateral)), float(np.max(lateral))
+    for _ in range(50):
+        middle = 0.5 * (low + high)
+        slopes = (lateral - middle) / depth
+        low, high = (middle, high) if slopes.max() + slopes.min() > 0.0 else (low, middle)
+    return 0.5 * (low + high)
 
 
 def half_tangents(camera: Camera, size_px) -> np.ndarray:

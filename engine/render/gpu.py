@@ -39,27 +39,29 @@ class Instances:
         if self.count:
             self.buffer.write(data)
 
-    def draw(self, which: int = 0, first: int = 0, count: int | None = None) -> None:
-        """Draws copies first .. first + count with one of the programs."""
-        count = self.count - first if count is None else count
-        if count <= 0:
-            return
-        if first == 0:
+    def draw(self, which: int = 0, count: int | None = None) -> None:
+        """Draws the first `count` copies, or all, with one of the programs."""
+        count = self.count if count is None else count
+        if count > 0:
             self.arrays[which].render(self.mode, instances=count)
-        else:
-            self._array(self.programs[which], first).render(self.mode, instances=count)
+
+    def draw_one(self, which: int, copy: int) -> None:
+        """Draws a single copy. GL 3.3 has no first instance: the rows before it become padding."""
+        array = self._array(self.programs[which], skipped=copy)
+        array.render(self.mode, instances=1)
+        array.release()
 
     def _reserve(self, size_bytes: int) -> None:
         self.buffer = self.gl.buffer(reserve=size_bytes, dynamic=True)
-        self.arrays = [self._array(program, 0) for program in self.programs]
+        self.arrays = [self._array(program) for program in self.programs]
 
-    def _array(self, program: moderngl.Program, first: int) -> moderngl.VertexArray:
+    def _array(self, program: moderngl.Program, skipped: int = 0) -> moderngl.VertexArray:
         """Attributes that a program does not read are left out of its array."""
         per_copy = _only_read(program, self.layout, self.attributes)
-        skip = f"{4 * first * _floats(self.layout)}x " if first else ""
+        padding = f"{4 * skipped * _floats(self.layout)}x " if skipped else ""
         content = [_mesh_part(program, self.mesh_layout)]
         if per_copy:
-            content.append((self.buffer, skip + per_copy[0] + "/i", *per_copy[1]))
+            content.append((self.buffer, padding + per_copy[0] + "/i", *per_copy[1]))
         return self.gl.vertex_array(program, content, index_buffer=self.index, index_element_size=4)
 
 

@@ -13,7 +13,7 @@ import numpy as np
 
 from engine.body import skeleton as sk
 from engine.body.skeleton import Body
-from engine.render.surface import Shape, ball, blend, carve, ellipsoid, half_space, mesh, taper
+from engine.render.surface import Shape, ball, blend, carve, ellipsoid, half_space, mesh, taper, without_buried
 
 SHELL, JOINT, VISOR, SHOE = range(4)  # materials: the figure's colour, its darker joints, the face's glass, the shoe
 
@@ -39,8 +39,10 @@ class MannequinMesh(NamedTuple):
 def mannequin_mesh(body: Body) -> MannequinMesh:
     """Sculpts and meshes a body; about a third of a second."""
     vertices, normals, tags, triangles, base = [], [], [], [], 0
-    for part in mannequin_parts(body):
-        piece = mesh(part.shape, part.cell_m)
+    parts = mannequin_parts(body)
+    for part in parts:
+        covers = [other.shape for other in parts if other.joint == part.joint and other is not part]
+        piece = without_buried(mesh(part.shape, part.cell_m), covers)
         vertices.append(piece.vertices)
         normals.append(piece.normals)
         tags.append(np.tile((part.joint, part.material), (len(piece.vertices), 1)))
@@ -92,73 +94,87 @@ def _trunk(body: Body, rest: np.ndarray, size: float) -> list[Part]:
     hip_half = abs(rest[sk.LEFT_HIP][1] - hips[1])
     pelvis = blend(
         0.05 * size,
-        ellipsoid(at(0.10, 0.002), (0.098 * size, max(0.152 * size, hip_half + 0.062 * size), 0.17 * height), 2.3),
+        ellipsoid(at(0.08, 0.002), (0.098 * size, max(0.152 * size, hip_half + 0.062 * size), 0.155 * height), 2.2),
+        taper(at(0.10, 0.004), at(0.34, 0.006), 0.132 * size, 0.126 * size, flat=(0.70, 1.0, 0.9)),
         *[ball(at(0.0, -0.045, y), 0.082 * size) for y in (-0.068, 0.068)],
     )
-    midriff = ellipsoid(at(0.36, 0.006), (0.088 * size, 0.118 * size, 0.24 * height), 2.2)
+    pelvis = carve(0.03 * size, pelvis, half_space(at(0.315), (0, 0, -1.0)))
+    midriff = ellipsoid(at(0.36, 0.006), (0.086 * size, 0.124 * size, 0.26 * height), 2.2)
     shoulder_half = abs(rest[sk.LEFT_SHOULDER][1] - neck[1])
     breadth = 0.5 * (0.146 * size + 0.80 * shoulder_half)
     ribs = blend(
-        0.05 * size,
-        taper(at(0.74, 0.004), at(0.56, 0.012), breadth, 0.81 * breadth, flat=(0.76, 1.0, 0.94)),
-        *[ellipsoid(at(0.77, 0.056, y), (0.058 * size, 0.074 * size, 0.068 * size)) for y in (-0.066, 0.066)],
-        *[ellipsoid(at(0.80, -0.045, y), (0.062 * size, 0.078 * size, 0.10 * size)) for y in (-0.075, 0.075)],
+        0.06 * size,
+        taper(at(0.74, 0.002), at(0.48, 0.012), breadth, 0.86 * breadth, flat=(0.74, 1.0, 0.94)),
+        *[ellipsoid(at(0.78, 0.056, y), (0.052 * size, 0.072 * size, 0.062 * size)) for y in (-0.064, 0.064)],
+        *[ellipsoid(at(0.80, -0.042, y), (0.060 * size, 0.076 * size, 0.10 * size)) for y in (-0.075, 0.075)],
+        *[_trapezius(rest, side, size) for side in (sk.LEFT, sk.RIGHT)],
     )
+    ribs = carve(0.03 * size, ribs, half_space(at(0.405), (0, 0, 1.0)))
     throat = taper((-0.004 * size, 0, -0.03 * size), body.offset_m[sk.HEAD] + (0.0, 0, 0.01 * size), 0.060 * size, 0.053 * size)
     parts = [
-        Part(sk.PELVIS, SHELL, _shifted(pelvis, -rest[sk.PELVIS]), 0.016 * size),
-        Part(sk.WAIST, JOINT, _shifted(midriff, -rest[sk.WAIST]), 0.018 * size),
-        Part(sk.BACK, SHELL, _shifted(ribs, -back), 0.015 * size),
-        Part(sk.NECK, JOINT, throat, 0.013 * size),
+        Part(sk.PELVIS, SHELL, _shifted(pelvis, -rest[sk.PELVIS]), 0.0205 * size),
+        Part(sk.WAIST, JOINT, _shifted(midriff, -rest[sk.WAIST]), 0.030 * size),
+        Part(sk.BACK, SHELL, _shifted(ribs, -back), 0.0195 * size),
+        Part(sk.NECK, JOINT, throat, 0.019 * size),
     ]
     for side in (sk.LEFT, sk.RIGHT):
-        parts.append(_girdle(body, rest, side, size))
+        parts.append(_girdle(body, side, size))
     return parts
 
 
-def _girdle(body: Body, rest: np.ndarray, side: int, size: float) -> Part:
-    """Trapezius and collar bone: a slope from the neck to the shoulder that moves with the clavicle."""
+def _trapezius(rest: np.ndarray, side: int, size: float) -> Shape:
+    """The slope from the neck towards the shoulder that stays with the rib cage."""
+    out = _sign(side) * size
+    shoulder = rest[sk.SHOULDERS[side]]
+    root = rest[sk.NECK] + (-0.010 * size, 0.026 * out, -0.016 * size)
+    return taper(root, root + 0.62 * (shoulder - root) + (0, 0, 0.004 * size), 0.046 * size, 0.044 * size)
+
+
+def _girdle(body: Body, side: int, size: float) -> Part:
+    """The shoulder's yoke, which moves with the clavicle and closes the gap between rib cage and arm."""
     clavicle = sk.CLAVICLES[side]
-    inner = rest[sk.NECK] - rest[clavicle] + (0.0, 0.025 * size * _sign(side), 0.0)
     shoulder = body.offset_m[sk.SHOULDERS[side]]
-    outer = shoulder + (0.0, -0.02 * size * _sign(side), 0.004 * size)
-    slope = taper(inner, outer, 0.050 * size, 0.046 * size, flat=(1.05, 1.0, 0.92))
-    return Part(clavicle, SHELL, slope, 0.014 * size)
+    tip = shoulder + (0.0, -0.012 * size * _sign(side), -0.002 * size)
+    yoke = blend(
+        0.03 * size,
+        taper(0.42 * shoulder + (0, 0, -0.012 * size), tip, 0.052 * size, 0.050 * size, flat=(1.12, 1.0, 0.96)),
+        taper(0.62 * shoulder + (0, 0, -0.065 * size), tip, 0.050 * size, 0.046 * size),
+    )
+    return Part(clavicle, SHELL, yoke, 0.021 * size)
 
 
 def _head(body: Body, size: float) -> list[Part]:
     """Skull, face and jaw with brow, nose, chin and ears, and a dark visor where the eyes are: it must be plain where it looks."""
-    crown = body.head_top_m
+    crown, size = body.head_top_m, 1.04 * size  # a little large, as sculptors make it: it carries the expression
 
     def at(forward: float, left: float, below: float) -> np.ndarray:
         return crown + np.array([forward, left, -below]) * size
 
-    skull = ellipsoid(at(-0.004, 0, 0.093), np.array([0.098, 0.077, 0.094]) * size)
-    face = taper(at(0.036, 0, 0.115), at(0.052, 0, 0.186), 0.060 * size, 0.036 * size, flat=(1.0, 0.98, 1.0))
-    jaw = taper(at(0.0, 0, 0.150), at(0.050, 0, 0.196), 0.056 * size, 0.030 * size)
+    skull = ellipsoid(at(-0.006, 0, 0.092), np.array([0.098, 0.077, 0.092]) * size)
+    face = taper(at(0.034, 0, 0.112), at(0.050, 0, 0.176), 0.061 * size, 0.039 * size, flat=(1.0, 0.97, 1.0))
+    jaw = taper(at(0.004, 0, 0.155), at(0.058, 0, 0.196), 0.052 * size, 0.023 * size, flat=(1.0, 0.96, 1.0))
     head = blend(0.03 * size, skull, face, jaw)
-    brow = ellipsoid(at(0.082, 0, 0.092), np.array([0.016, 0.050, 0.012]) * size)
-    head = blend(0.018 * size, head, brow)
-    nose = taper(at(0.090, 0, 0.105), at(0.106, 0, 0.141), 0.0085 * size, 0.0145 * size)
-    ears = [ellipsoid(at(-0.006, y, 0.118), np.array([0.020, 0.010, 0.031]) * size) for y in (-0.075, 0.075)]
-    visor = carve(
-        0.006 * size,
-        Shape(lambda points: head.field(points) - 0.0035 * size, head.low - 0.004, head.high + 0.004),
-        lambda points: -_outside_band(points, crown, size),
-    )
+    brow = ellipsoid(at(0.080, 0, 0.082), np.array([0.013, 0.052, 0.010]) * size)
+    head = blend(0.02 * size, head, brow)
+    nose = taper(at(0.088, 0, 0.124), at(0.102, 0, 0.149), 0.008 * size, 0.0110 * size)
+    ears = [ellipsoid(at(-0.008, y, 0.118), np.array([0.019, 0.010, 0.030]) * size) for y in (-0.074, 0.074)]
+    glass = Shape(lambda points: head.field(points) - 0.0035 * size, head.low - 0.003, head.high + 0.003)
+    visor = carve(0.006 * size, glass, lambda points: -_outside_lens((points - crown) / size) * size)
     return [
-        Part(sk.HEAD, SHELL, blend(0.010 * size, head, nose, *ears), 0.0085 * size),
-        Part(sk.HEAD, VISOR, visor, 0.0055 * size),
+        Part(sk.HEAD, SHELL, blend(0.012 * size, head, nose, *ears), 0.0115 * size),
+        Part(sk.HEAD, VISOR, visor, 0.0058 * size),
     ]
 
 
-def _outside_band(points: np.ndarray, crown: np.ndarray, size: float) -> np.ndarray:
-    """Positive outside the eye band: it covers the front of the face from temple to temple and dips towards the nose."""
-    local = (points - crown) / size
-    across = np.abs(local[:, 1])
-    middle = -0.117 + 0.08 * across
-    half = 0.0165 - 1.2 * np.maximum(across - 0.045, 0.0) ** 1.5
-    return np.maximum(np.abs(local[:, 2] - middle) - half, 0.022 - local[:, 0]) * size
+def _outside_lens(local: np.ndarray) -> np.ndarray:
+    """Positive outside the visor's outline, which wraps the eyes from temple to temple and rises over the nose.
+
+    local: (N, 3) from the crown, for a stature of 1.75 m.
+    """
+    middle, half_height, half_width = -0.112, 0.0255, 0.0765
+    height = np.where(local[:, 2] < middle, half_height - 0.009 * np.exp(-((local[:, 1] / 0.016) ** 2)), half_height)
+    lens = ((local[:, 1] / half_width) ** 4 + ((local[:, 2] - middle) / height) ** 4) ** 0.25
+    return np.maximum((lens - 1.0) * half_height, 0.015 - local[:, 0])
 
 
 def _arm(body: Body, side: int, size: float) -> list[Part]:
@@ -166,21 +182,22 @@ def _arm(body: Body, side: int, size: float) -> list[Part]:
     shoulder, elbow, wrist = sk.SHOULDERS[side], sk.ELBOWS[side], sk.WRISTS[side]
     upper, lower = body.offset_m[elbow], body.offset_m[wrist]
     out = _sign(side) * size
-    upper_arm = blend(
+    upper_arm = _cut(0.014 * size, upper, 0.017 * size, blend(
         0.03 * size,
-        taper((0, 0.008 * out, -0.004 * size), 0.88 * upper, 0.053 * size, 0.037 * size),
+        taper((0, 0.008 * out, -0.004 * size), 0.97 * upper, 0.052 * size, 0.0385 * size),
+        ellipsoid(0.16 * upper + (0, 0.010 * out, 0), (0.054 * size, 0.047 * size, 0.075 * size)),
         ellipsoid(0.48 * upper + (0.008 * size, 0.002 * out, 0), (0.044 * size, 0.042 * size, 0.085 * size)),
-    )
-    forearm = blend(
+    ))  # fmt: skip
+    forearm = _cut(0.012 * size, lower, 0.012 * size, blend(
         0.03 * size,
-        taper(0.10 * lower, 0.93 * lower, 0.037 * size, 0.0255 * size, flat=(1.06, 1.0, 1.0)),
+        taper(0.04 * lower, 0.98 * lower, 0.038 * size, 0.0262 * size, flat=(1.06, 1.0, 1.0)),
         ellipsoid(0.27 * lower + (0.006 * size, 0.004 * out, 0), (0.042 * size, 0.039 * size, 0.085 * size)),
-    )
+    ), start_m=0.017 * size)  # fmt: skip
     return [
-        Part(shoulder, SHELL, upper_arm, 0.012 * size),
-        Part(elbow, JOINT, ball((0, 0, 0), 0.0385 * size), 0.011 * size),
-        Part(elbow, SHELL, forearm, 0.010 * size),
-        Part(wrist, JOINT, ball((0, 0, 0), 0.0265 * size), 0.008 * size),
+        Part(shoulder, SHELL, upper_arm, 0.017 * size),
+        Part(elbow, JOINT, ball((0, 0, 0), 0.0385 * size), 0.0135 * size),
+        Part(elbow, SHELL, forearm, 0.0145 * size),
+        Part(wrist, JOINT, ball((0, 0, 0), 0.0265 * size), 0.011 * size),
     ]
 
 
@@ -202,7 +219,7 @@ def _hand(body: Body, side: int, size: float) -> list[Part]:
         taper(0.20 * tip + (0.018 * size, 0.003 * inward, 0), 0.40 * tip + (0.047 * size, 0.012 * inward, 0), 0.0165 * size, 0.0125 * size),
         taper(0.40 * tip + (0.047 * size, 0.012 * inward, 0), 0.57 * tip + (0.054 * size, 0.017 * inward, 0), 0.0125 * size, 0.0095 * size),
     )
-    return [Part(wrist, SHELL, hand, 0.0065 * size)]
+    return [Part(wrist, SHELL, hand, 0.0085 * size)]
 
 
 def _leg(body: Body, side: int, size: float) -> list[Part]:
@@ -210,21 +227,21 @@ def _leg(body: Body, side: int, size: float) -> list[Part]:
     hip, knee, ankle = sk.HIPS[side], sk.KNEES[side], sk.ANKLES[side]
     thigh, shin = body.offset_m[knee], body.offset_m[ankle]
     out = _sign(side) * size
-    upper_leg = blend(
+    upper_leg = _cut(0.018 * size, thigh, 0.024 * size, blend(
         0.04 * size,
-        taper((0.0, -0.002 * out, -0.015 * size), 0.93 * thigh, 0.081 * size, 0.050 * size),
+        taper((0.0, -0.002 * out, -0.015 * size), 0.98 * thigh, 0.081 * size, 0.0505 * size),
         ellipsoid(0.42 * thigh + (0.018 * size, 0.006 * out, 0), (0.066 * size, 0.066 * size, 0.15 * size)),
-    )
-    lower_leg = blend(
+    ))  # fmt: skip
+    lower_leg = _cut(0.014 * size, shin, 0.020 * size, blend(
         0.03 * size,
-        taper(0.09 * shin, 0.95 * shin, 0.047 * size, 0.0325 * size),
+        taper(0.03 * shin, 0.98 * shin, 0.0485 * size, 0.0335 * size),
         ellipsoid(0.30 * shin + (-0.020 * size, 0.004 * out, 0), (0.050 * size, 0.050 * size, 0.115 * size)),
-    )
+    ), start_m=0.024 * size)  # fmt: skip
     return [
-        Part(hip, SHELL, upper_leg, 0.016 * size),
-        Part(knee, JOINT, ball((0.004 * size, 0, 0), 0.0515 * size), 0.013 * size),
-        Part(knee, SHELL, lower_leg, 0.012 * size),
-        Part(ankle, JOINT, ball((0, 0, 0), 0.0365 * size), 0.010 * size),
+        Part(hip, SHELL, upper_leg, 0.022 * size),
+        Part(knee, JOINT, ball((0.004 * size, 0, 0), 0.0515 * size), 0.016 * size),
+        Part(knee, SHELL, lower_leg, 0.017 * size),
+        Part(ankle, JOINT, ball((0, 0, 0), 0.0365 * size), 0.014 * size),
     ]
 
 
@@ -252,9 +269,17 @@ def _foot(body: Body, side: int, size: float) -> list[Part]:
     flat_sole = half_space((0, 0, ground), (0, 0, 1.0))
     flat_toes = half_space((0, 0, under_toes), (0, 0, 1.0))
     return [
-        Part(ankle, SHOE, carve(0.008 * size, foot, flat_sole), 0.009 * size),
-        Part(toe, SHOE, carve(0.008 * size, toes, flat_toes), 0.009 * size),
+        Part(ankle, SHOE, carve(0.008 * size, foot, flat_sole), 0.012 * size),
+        Part(toe, SHOE, carve(0.008 * size, toes, flat_toes), 0.012 * size),
     ]
+
+
+def _cut(round_m: float, bone: np.ndarray, end_m: float, limb: Shape, start_m: float | None = None) -> Shape:
+    """A limb squared off short of the joint at the bone's end, and of its own where told: a rim around the ball."""
+    cutters = [half_space(bone + (0, 0, end_m), (0, 0, 1.0))]
+    if start_m is not None:
+        cutters.append(half_space((0, 0, -start_m), (0, 0, -1.0)))
+    return carve(round_m, limb, *cutters)
 
 
 def _shifted(shape: Shape, by: np.ndarray) -> Shape:

@@ -125,11 +125,12 @@ class Renderer:
         and ghosts that stand in each other both stay whole, because each is tested against solid things only."""
         for ghost in self.figures.ghosts:
             self.gl.copy_framebuffer(targets.ghost_depth, targets.solid_depth)
-            targets.ghosts.use()
             self.gl.enable_only(moderngl.DEPTH_TEST | moderngl.CULL_FACE)
             targets.ghosts.color_mask = (False,) * 4
+            targets.ghosts.use()
             self.figures.draw_ghost(ghost)
             targets.ghosts.color_mask = (True,) * 4
+            targets.ghosts.use()
             self.gl.enable(moderngl.BLEND)
             self.figures.draw_ghost(ghost)
         targets.sampled.use()

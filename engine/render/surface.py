@@ -118,6 +118,16 @@ def mesh(shape: Shape, cell_m: float) -> Mesh:
     return Mesh(vertices, normals, _triangles(values < 0.0, rows))
 
 
+def without_buried(piece: Mesh, covers: list[Shape], depth_m: float = 0.004) -> Mesh:
+    """The mesh less what lies deep inside solids that move along with it, so can never be seen."""
+    buried = np.zeros(len(piece.vertices), bool)
+    for cover in covers:
+        buried |= cover.field(piece.vertices) < -depth_m
+    kept = piece.triangles[~buried[piece.triangles].all(axis=1)]
+    used, triangles = np.unique(kept, return_inverse=True)
+    return Mesh(piece.vertices[used], piece.normals[used], triangles.reshape(-1, 3))
+
+
 def _smooth_min(a, b, width):
     meet = np.maximum(width - np.abs(a - b), 0.0) / width
     return np.minimum(a, b) - 0.25 * width * meet * meet

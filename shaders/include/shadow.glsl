@@ -1,8 +1,10 @@
 #include "frame.glsl"
 uniform sampler2DShadow shadow_map;
 
-// Sixteen places of a golden-angle spiral, each a bilinear comparison: a soft edge without visible steps.
-const int TAPS = 12;
+// Places of a golden-angle spiral, each a bilinear comparison: a soft edge without visible steps.
+#ifndef TAPS
+#define TAPS 12
+#endif
 const vec2 SPIRAL[12] = vec2[](
     vec2(0.204, 0.000), vec2(-0.261, 0.239), vec2(0.040, -0.455), vec2(0.329, 0.428), vec2(-0.603, -0.107), vec2(0.571, -0.363),
     vec2(-0.190, 0.711), vec2(-0.369, -0.699), vec2(0.788, 0.288), vec2(-0.827, 0.327), vec2(0.392, -0.850), vec2(0.325, 0.924));

@@ -21,25 +21,25 @@ class BallPass:
         vertices, triangles = unit_sphere()
         layout = (gl.buffer(vertices.astype("f4").tobytes()), "3f", "vertex")
         index = gl.buffer(triangles.astype("i4").tobytes())
-        self.instances = Instances(gl, programs, layout, "4f 4f 2f", ("place_m", "turn", "look"), index)
-        self.solid_count = 0
+        self.solid, self.ghosts = (
+            Instances(gl, programs, layout, "4f 4f 2f", ("place_m", "turn", "look"), index) for _ in range(2)
+        )
 
     def upload(self, balls: list[Ball], eye_m) -> None:
         solid = [ball for ball in balls if ball.alpha >= 1.0]
         ghosts = [ball for ball in balls if 0.0 < ball.alpha < 1.0]
         ghosts.sort(key=lambda ball: -float(np.linalg.norm(np.subtract(ball.position_m, eye_m))))
-        self.solid_count = len(solid)
-        rows = [_row(ball) for ball in solid + ghosts]
-        self.instances.upload(np.array(rows, "f4").reshape(-1, 10))
+        for instances, drawn in ((self.solid, solid), (self.ghosts, ghosts)):
+            instances.upload(np.array([_row(ball) for ball in drawn], "f4").reshape(-1, 10))
 
     def draw_solid(self) -> None:
-        self.instances.draw(SOLID, count=self.solid_count)
+        self.solid.draw(SOLID)
 
     def draw_shadow(self) -> None:
-        self.instances.draw(SHADOW, count=self.solid_count)
+        self.solid.draw(SHADOW)
 
     def draw_ghosts(self) -> None:
-        self.instances.draw(SOLID, first=self.solid_count)
+        self.ghosts.draw(SOLID)
 
 
 def unit_sphere(steps: int = 4) -> tuple[np.ndarray, np.ndarray]:

@@ -27,21 +27,22 @@ class DecalPass:
     def __init__(self, gl):
         layout = (gl.buffer(SQUARE.tobytes()), "2f", "corner")
         attributes = ("place_m", "half_m", "colour", "kind")
-        self.instances = Instances(gl, [make_pass(gl, "decal")], layout, "4f 2f 4f 1f", attributes, mode=moderngl.TRIANGLE_STRIP)
-        self.contact_count = 0
+        program = make_pass(gl, "decal")
+        self.contacts, self.marks = (
+            Instances(gl, [program], layout, "4f 2f 4f 1f", attributes, mode=moderngl.TRIANGLE_STRIP) for _ in range(2)
+        )
 
     def upload(self, scene: Scene) -> None:
         contacts = [row for figure in scene.figures if figure.alpha >= 1.0 for row in figure_contacts(figure)]
         contacts += [row for ball in scene.balls if ball.alpha >= 1.0 for row in _ball_contact(ball)]
-        self.contact_count = len(contacts)
-        rows = contacts + _balance_marks(scene)
-        self.instances.upload(np.array(rows, "f4").reshape(-1, 11))
+        self.contacts.upload(np.array(contacts, "f4").reshape(-1, 11))
+        self.marks.upload(np.array(_balance_marks(scene), "f4").reshape(-1, 11))
 
     def draw_contacts(self) -> None:
-        self.instances.draw(count=self.contact_count)
+        self.contacts.draw()
 
     def draw_marks(self) -> None:
-        self.instances.draw(first=self.contact_count)
+        self.marks.draw()
 
 
 def figure_contacts(figure: Figure) -> list[tuple[float, ...]]:

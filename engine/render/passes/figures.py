@@ -52,7 +52,7 @@ class FigurePass:
     def draw_ghost(self, ghost: tuple[Instances, int]) -> None:
         """One of `ghosts`, which are in drawing order."""
         self._bind()
-        ghost[0].draw(GHOST, first=ghost[1], count=1)
+        ghost[0].draw_one(GHOST, ghost[1])
 
     def _draw_solid(self, which: int) -> None:
         self._bind()

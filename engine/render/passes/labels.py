@@ -25,23 +25,23 @@ class LabelPass:
         self.program["atlas"] = ATLAS_UNIT
         corners = gl.buffer(np.array([(0, 0), (0, 1), (1, 0), (1, 1)], "f4").tobytes())
         attributes = ("box_px", "box_atlas", "colour")
-        self.letters = Instances(
-            gl, [self.program], (corners, "2f", "corner"), "4f 4f 4f", attributes, mode=moderngl.TRIANGLE_STRIP
+        self.labels, self.captions = (
+            Instances(gl, [self.program], (corners, "2f", "corner"), "4f 4f 4f", attributes, mode=moderngl.TRIANGLE_STRIP)
+            for _ in range(2)
         )
         self.atlases: dict[int, tuple[GlyphAtlas, moderngl.Texture]] = {}
-        self.batches: list[tuple[int, int, int]] = []  # font size, first letter, count
+        self.scale = 1.0
 
     def upload(self, scene: Scene, camera: Camera, size_px, scale: float) -> None:
-        labels, captions = self._labels(scene, camera, size_px, scale), self._captions(scene, size_px, scale)
-        self.letters.upload(np.concatenate([np.zeros((0, 12)), *labels, *captions]))
-        first = sum(map(len, labels))
-        self.batches = [(round(LABEL_PX * scale), 0, first), (round(CAPTION_PX * scale), first, self.letters.count - first)]
+        self.scale = scale
+        self.labels.upload(np.concatenate([np.zeros((0, 12)), *self._labels(scene, camera, size_px, scale)]))
+        self.captions.upload(np.concatenate([np.zeros((0, 12)), *self._captions(scene, size_px, scale)]))
 
     def draw(self) -> None:
-        for font_px, first, count in self.batches:
-            if count:
-                self._atlas(font_px)[1].use(ATLAS_UNIT)
-                self.letters.draw(first=first, count=count)
+        for letters, font_px in ((self.labels, LABEL_PX), (self.captions, CAPTION_PX)):
+            if letters.count:
+                self._atlas(round(font_px * self.scale))[1].use(ATLAS_UNIT)
+                letters.draw()
 
     def _labels(self, scene: Scene, camera: Camera, size_px, scale: float) -> list[np.ndarray]:
         if scene.draw is None or not scene.draw.labels:
