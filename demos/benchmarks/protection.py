@@ -49,7 +49,7 @@ def prepare() -> Benchmark:
 
 
 def standing_task() -> tuple[Any, Any, np.ndarray, Any]:
-    """Somebody who stands straight, and a volleyball at the head from the front left: task, reference, start, settings."""
+    """Somebody standing straight, a volleyball at the head from the front left: task, reference, start, settings."""
     from behaviours.perceived import PerceivedThreat, aim_of
     from behaviours.settings import Settings
     from behaviours.sustained import protect
