@@ -14,7 +14,6 @@ worth the name; the others keep only the play that real joints have (carrying an
 
 from __future__ import annotations
 
-
 import numpy as np
 from numba import njit
 

@@ -6,7 +6,18 @@ import pytest
 from engine.body import anthropometry as anthro
 from engine.body import kinematics
 from engine.body.skeleton import (
-    ANKLES, BACK, CLAVICLES, HEAD, HIPS, JOINT_COUNT, KNEES, MIRRORED, NECK, SHOULDERS, TOES, WRISTS,
+    ANKLES,
+    BACK,
+    CLAVICLES,
+    HEAD,
+    HIPS,
+    JOINT_COUNT,
+    KNEES,
+    MIRRORED,
+    NECK,
+    SHOULDERS,
+    TOES,
+    WRISTS,
 )  # fmt: skip
 from tests.body.poses import identity_pose
 
