@@ -69,8 +69,8 @@ def _plane(ball_m: np.ndarray, stands: np.ndarray) -> tuple[np.ndarray, np.ndarr
     frame, side = np.nonzero(stands)
     at, height = ball_m[frame, side, :2], ball_m[frame, side, 2]
     centre = at.mean(axis=0)
-    kept = np.ones(len(height), bool)
-    for _ in range(3):
+    kept = counted = np.ones(len(height), bool)
+    for _ in range(4):
         columns = np.column_stack([side == 0, side == 1, at - centre]).astype(float)[kept]
         normal = np.einsum("ni,nj->ij", columns, columns)
         normal[[2, 3], [2, 3]] += kept.sum() * SPREAD_M**2
@@ -79,11 +79,11 @@ def _plane(ball_m: np.ndarray, stands: np.ndarray) -> tuple[np.ndarray, np.ndarr
         solved = np.linalg.solve(normal, np.einsum("ni,n->i", columns, height[kept]))
         slope = solved[2:] * min(1.0, STEEPEST / max(float(np.linalg.norm(solved[2:])), 1e-9))
         residual = height - np.where(side == 0, solved[0], solved[1]) - np.sum((at - centre) * slope, axis=-1)
-        kept = np.abs(residual) < max(0.01, 2.5 * float(np.median(np.abs(residual))))
-        # feet of one person stand at one level, give or take their markers: one that seems far above the other only hangs low
         apart = solved[0] - solved[1]
-        if abs(apart) > FEET_APART_M and (side == 0).any() and (side == 1).any():
-            kept &= side == (1 if apart > 0.0 else 0)
+        if abs(apart) > FEET_APART_M and len(np.unique(side[counted])) == 2:
+            # feet of one person stand at one level, give or take their markers: one far above the other only hangs low
+            counted = side == (1 if apart > 0.0 else 0)
+        kept = counted & (np.abs(residual) < max(0.01, 2.5 * float(np.median(np.abs(residual[counted])))))
     level = np.array([np.median(height[side == s] - np.sum((at[side == s] - centre) * slope, axis=-1)) if (side == s).any()
                       else np.nan for s in (0, 1)])  # fmt: skip
     level = np.where(np.isnan(level) | (level > np.nanmin(level) + FEET_APART_M), np.nanmin(level), level)

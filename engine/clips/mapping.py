@@ -43,6 +43,7 @@ DOWN, AHEAD = np.array([0.0, 0.0, -1.0]), np.array([1.0, 0.0, 0.0])
 IDENTITY = np.array([1.0, 0.0, 0.0, 0.0])
 # a limb bent less than this tells nothing about its hinge; one bent more than that tells all
 HINGE_UNSURE_RAD, HINGE_SURE_RAD = np.radians(12.0), np.radians(35.0)
+FOREARM = 0.146  # of stature, where a file has no wrist (Winter, fig. 4.1)
 STATURE_PER_LEG = 1.0 / 0.495  # de Leva 1996, males: thigh and shank are 49.5 % of stature
 
 
@@ -139,13 +140,20 @@ def _rest_joints(source: Source, rig: Rig, rows: dict[int, int], height_m: float
             outwards = rest[SHOULDERS[side]] - shoulders
             rest[CLAVICLES[side]] = shoulders + 0.15 * outwards
         if WRISTS[side] not in rest:
-            rest[WRISTS[side]] = rest[ELBOWS[side]] + _tip(source, rig.elbow[side], 0.146 * height_m)
+            rest[WRISTS[side]] = rest[ELBOWS[side]] + source.tips.get(rig.elbow[side], DOWN * FOREARM * height_m)
+        if TOES[side] not in rest and rig.ankle[side] in source.tips:
+            rest[TOES[side]] = rest[ANKLES[side]] + _toe_on_the_way(source.tips[rig.ankle[side]], height_m)
     return rest
 
 
-def _tip(source: Source, row: int, length_m: float) -> np.ndarray:
-    """The end of a last bone, or one of usual length along its parent's direction."""
-    return source.tips.get(row, DOWN * length_m)
+def _toe_on_the_way(tip: np.ndarray, height_m: float) -> np.ndarray:
+    """The toe joint of a foot without one: where its bone ends, if that is at the ball; a share of the way, if at the toes' tips."""
+    reach = float(np.hypot(tip[0], tip[1])) / (height_m * BUILD["male"].foot)
+    if reach < BALL_AHEAD + 0.5 * TOE_AHEAD:
+        return tip
+    share = BALL_AHEAD / (BALL_AHEAD + TOE_AHEAD)
+    # the tips of the toes lie on the ground, the joint a little over it
+    return np.array([tip[0] * share, tip[1] * share, tip[2] + TOE_JOINT_HEIGHT * height_m])
 
 
 def _unit(v: np.ndarray) -> np.ndarray:

@@ -1,0 +1,186 @@
+"""A motion file becomes a clip: read, mapped, laid on a level floor, facing ahead. The steps in their order."""
+
+from __future__ import annotations
+
+import hashlib
+from dataclasses import dataclass
+from functools import cache
+from pathlib import Path
+
+import numpy as np
+
+from engine.body.anthropometry import make_body, stature_m
+from engine.body.kinematics import joints_of
+from engine.body.skeleton import ANKLES, TOES, Body, Pose
+from engine.clips.acclaim import find_asf, read_acclaim
+from engine.clips.axes import find_axes, leg_length
+from engine.clips.bvh import read_bvh
+from engine.clips.clip import Clip, ImportReport
+from engine.clips.contacts import runs
+from engine.clips.feet import level_feet, stand_on
+from engine.clips.floor import Floor, fit_floor, level_from_floor
+from engine.clips.looping import find_loop
+from engine.clips.mapping import Mapped, map_tracks
+from engine.clips.npz import read_npz
+from engine.clips.rest_frames import rest_frames
+from engine.clips.rig import find_rig, restore_dropped_bones
+from engine.clips.tracks import Tracks, rest_positions
+from engine.core.errors import BadInput
+from engine.maths import rotations
+
+FORMATS = (".bvh", ".amc", ".npz")
+
+
+@dataclass(frozen=True)
+class Wanted:
+    """What a caller may ask of an import besides the file."""
+
+    sex: str = "male"
+    body_mass_kg: float | None = None
+    first_frame: int = 0  # of the file
+    last_frame: int | None = None
+
+
+def import_clip(path: str | Path, *, sex: str = "male", body_mass_kg: float | None = None, name: str | None = None,
+                frames: tuple[int, int] | None = None) -> Clip:  # fmt: skip
+    """The clip in a .bvh, .amc (its .asf beside it) or .npz file. BadInput says what is wrong with the file, and where.
+
+    frames: first and last frame of the file to keep, 0-based; all of them if absent.
+    """
+    path = Path(path)
+    wanted = Wanted(sex, body_mass_kg, *(frames or (0, None)))
+    return build_clip(read_tracks(path), path, wanted, name or path.stem, content_key(path, wanted))
+
+
+def sources_of(path: Path) -> list[Path]:
+    """The files that a clip is made of. BadInput if a kind of file is not known or a skeleton is missing."""
+    suffix = path.suffix.lower()
+    if suffix not in FORMATS:
+        raise BadInput("clip-format", f"found a {suffix or 'nameless'} file, expected {', '.join(FORMATS)}", str(path))
+    if not path.is_file():
+        raise BadInput("clip-missing", "found no such file, expected a clip", str(path))
+    return [path, find_asf(path)] if suffix == ".amc" else [path]
+
+
+def read_tracks(path: Path) -> Tracks:
+    """What the file says, by its kind."""
+    files = sources_of(path)
+    if len(files) == 2:
+        return read_acclaim(*files)
+    return read_bvh(path) if path.suffix.lower() == ".bvh" else read_npz(path)
+
+
+def content_key(path: Path, wanted: Wanted) -> str:
+    """A name for what an import will give: it changes with any byte of the files, of the wishes, or of the code that imports."""
+    digest = hashlib.sha256(f"{importer_version()} {wanted}".encode())
+    for file in sources_of(path):
+        try:
+            digest.update(hashlib.sha256(file.read_bytes()).digest())
+        except OSError as trouble:
+            raise BadInput("clip-unreadable", f"found no readable file ({trouble.strerror}), expected a clip", str(file)) from None
+    return digest.hexdigest()
+
+
+@cache
+def importer_version() -> str:
+    """Of the code that the outcome depends on, so that nothing imported by older code is ever taken from a cache."""
+    here = Path(__file__).parent
+    sources = [*sorted(here.glob("*.py")), here.parent / "body" / "anthropometry.py", here.parent / "maths" / "rotations.py"]
+    return hashlib.sha256(b"\0".join(source.read_bytes() for source in sources)).hexdigest()[:16]
+
+
+def build_clip(tracks: Tracks, where: Path, wanted: Wanted, name: str, key: str) -> Clip:
+    """The steps of the import, each on the outcome of the one before."""
+    rig = find_rig(tracks, where)
+    tracks = restore_dropped_bones(tracks, rig)
+    axes = find_axes(tracks, rig)
+    mapped = map_tracks(tracks, rig, axes)
+    body = _body(mapped, mapped.offset_m, wanted, where)
+    dropped = _dropped(mapped.pose, body, tracks)
+    pose = _kept(mapped.pose, dropped, wanted, where)
+    floor = _floor(pose, body, tracks.fps)
+    pose = _turned(pose, level_from_floor(floor.slope))
+    positions, orientations = joints_of(body, pose)
+    feet = level_feet(pose, mapped.offset_m, orientations, floor.planted, tracks.fps)
+    body = _body(mapped, feet.offset_m, wanted, where)
+    floor_m, sole_shift = stand_on(
+        positions[:, list(ANKLES), 2], body.sole_m, feet.flat, _ball_levels(positions, floor), body.offset_m[list(TOES)]
+    )
+    body = body._replace(sole_m=body.sole_m + sole_shift[:, None, None] * np.array([0.0, 0.0, 1.0]))
+    pose, facing = _facing_ahead(feet.pose, floor_m)
+    loop = find_loop(pose, body, floor.planted, tracks.fps)
+    report = ImportReport(
+        name=name,
+        format=tracks.format,
+        frames=len(pose.root_m),
+        fps=tracks.fps,
+        duration_s=(len(pose.root_m) - 1) / tracks.fps,
+        source_joints=len(tracks.names),
+        scale_to_m=axes.scale_to_m,
+        up_axis=axes.up,
+        leg_length_m=leg_length(rest_positions(tracks), rig) * axes.scale_to_m,
+        height_m=stature_m(body.offset_m),
+        floor_m=floor_m,
+        floor_slope=float(np.linalg.norm(floor.slope)),
+        facing_deg=float(np.degrees(facing)),
+        rest_frames_dropped=dropped,
+        planted={side: [list(run) for run in runs(floor.planted[:, s])] for s, side in enumerate(("left", "right"))},
+        missing_joints=list(mapped.missing),
+        hinge_residual_deg=mapped.hinge_residual_deg,
+        position_error_m=mapped.position_error_m,
+        notes=[*tracks.notes, *axes.notes],
+    )
+    return Clip(name, tracks.fps, pose, body, floor.planted, loop, report, key)
+
+
+def _body(mapped: Mapped, offset_m: np.ndarray, wanted: Wanted, where: Path) -> Body:
+    try:
+        return make_body(
+            offset_m, sex=wanted.sex, mass_kg=wanted.body_mass_kg, head_top_m=mapped.head_top_m, fingertip_m=mapped.fingertip_m
+        )
+    except ValueError as trouble:
+        raise BadInput("clip-body", str(trouble), str(where)) from None
+
+
+def _dropped(pose: Pose, body: Body, tracks: Tracks) -> int:
+    _, orientations = joints_of(body, Pose(pose.root_m[:1], pose.rotations[:1]))
+    return rest_frames(pose.rotations, orientations, tracks.rotations, tracks.fps)
+
+
+def _kept(pose: Pose, dropped: int, wanted: Wanted, where: Path) -> Pose:
+    """The frames asked for, less the rest frames at the start of the file."""
+    frames = len(pose.root_m)
+    last = frames - 1 if wanted.last_frame is None else wanted.last_frame
+    if not 0 <= wanted.first_frame <= last < frames:
+        raise BadInput("clip-frames", f"found frames 0 to {frames - 1}, expected {wanted.first_frame} to {last} among them", str(where))
+    keep = slice(max(dropped, wanted.first_frame), last + 1)
+    if len(pose.root_m[keep]) == 0:
+        raise BadInput("clip-frames", "found nothing but a rest pose, expected a motion", str(where))
+    return Pose(pose.root_m[keep].copy(), pose.rotations[keep].copy())
+
+
+def _floor(pose: Pose, body: Body, fps: float) -> Floor:
+    positions, _ = joints_of(body, pose)
+    return fit_floor(positions[:, list(TOES)], positions[:, list(ANKLES)], pose.root_m, fps)
+
+
+def _turned(pose: Pose, turn: np.ndarray) -> Pose:
+    """The whole motion turned about the world's origin."""
+    local = pose.rotations.copy()
+    local[:, 0] = rotations.multiply(turn, local[:, 0])
+    return Pose(rotations.rotate(turn, pose.root_m), local)
+
+
+def _ball_levels(positions: np.ndarray, floor: Floor) -> np.ndarray:
+    """Heights (2,) of the balls of standing feet once the floor is level; the lowest ball's for a foot that never stands."""
+    heights = positions[:, list(TOES), 2]
+    level = [np.median(heights[floor.planted[:, s], s]) if floor.planted[:, s].any() else np.inf for s in (0, 1)]
+    return np.minimum(level, min(level)) if not np.isfinite(level).all() else np.array(level)
+
+
+def _facing_ahead(pose: Pose, floor_m: float) -> tuple[Pose, float]:
+    """The motion moved so that its first frame is over the origin and faces +X, its floor at zero; and the heading that it had."""
+    facing = float(rotations.heading(pose.rotations[0, 0]))
+    shifted = Pose(pose.root_m - np.array([*pose.root_m[0, :2], floor_m]), pose.rotations)
+    turned = _turned(shifted, rotations.about_z(-facing))
+    return Pose(np.ascontiguousarray(turned.root_m), np.ascontiguousarray(rotations.continuity(turned.rotations))), facing
