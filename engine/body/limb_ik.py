@@ -257,14 +257,25 @@ def apply_arm(
     rotations (J, 4), positions (J, 3), orientations (J, 4) of one pose, consistent, are updated in place from the shoulder
     down; the hand stays as it is on the forearm. Returns how far the wrist misses, metres. soft_m 0: exact up to full length.
     """
+    return arm_onto(
+        body.offset_m, -body.limit_low_rad[ELBOWS[side], 1], rotations, positions, orientations, side,
+        (target_m[0], target_m[1], target_m[2]), swivel_rad, reference, soft_m,
+    )  # fmt: skip
+
+
+@njit(cache=True)
+def arm_onto(
+    offset_m, greatest_rad, rotations, positions, orientations, side, target, swivel_rad, reference, soft_m
+):
+    """apply_arm for hot kernels, which cannot afford to hand a whole body on: greatest_rad is the most the elbow flexes."""
     shoulder, elbow, wrist = SHOULDERS[side], ELBOWS[side], WRISTS[side]
-    root, target = _point(positions, shoulder), (target_m[0], target_m[1], target_m[2])
+    root = _point(positions, shoulder)
     n = vector.unit(vector.subtract(target, root), (0.0, 0.0, -1.0))
     limb, lower, miss_m = solve_limb(
         root, _point(positions, elbow), _point(positions, wrist), elbow_axis(orientations, side), target,
-        arm_zero(orientations, side, reference, n), swivel_rad, side_sign(side), -body.limit_low_rad[elbow, 1], soft_m,
+        arm_zero(orientations, side, reference, n), swivel_rad, side_sign(side), greatest_rad, soft_m,
     )  # fmt: skip
-    _apply(body.offset_m, rotations, positions, orientations, CLAVICLES[side], shoulder, elbow, wrist, limb, lower)
+    _apply(offset_m, rotations, positions, orientations, CLAVICLES[side], shoulder, elbow, wrist, limb, lower)
     return miss_m
 
 
@@ -276,16 +287,27 @@ def apply_leg(
 
     Arrays as in apply_arm, updated in place from the hip down to the toe. Returns how far the ankle misses, metres.
     """
+    return leg_onto(
+        body.offset_m, body.limit_high_rad[KNEES[side], 1], rotations, positions, orientations, side,
+        (target_m[0], target_m[1], target_m[2]), foot_orientation, swivel_rad, soft_m,
+    )  # fmt: skip
+
+
+@njit(cache=True)
+def leg_onto(
+    offset_m, greatest_rad, rotations, positions, orientations, side, target, foot_orientation, swivel_rad, soft_m
+):
+    """apply_leg for hot kernels, see arm_onto: greatest_rad is the most the knee flexes."""
     hip, knee, ankle = HIPS[side], KNEES[side], ANKLES[side]
-    root, target = _point(positions, hip), (target_m[0], target_m[1], target_m[2])
+    root = _point(positions, hip)
     foot = (foot_orientation[0], foot_orientation[1], foot_orientation[2], foot_orientation[3])
     n = vector.unit(vector.subtract(target, root), (0.0, 0.0, -1.0))
     limb, lower, miss_m = solve_limb(
         root, _point(positions, knee), _point(positions, ankle), knee_axis(orientations, side), target,
-        knee_zero(orientations, n), swivel_rad, side_sign(side), body.limit_high_rad[knee, 1], soft_m,
+        knee_zero(orientations, n), swivel_rad, side_sign(side), greatest_rad, soft_m,
     )  # fmt: skip
-    _apply(body.offset_m, rotations, positions, orientations, PELVIS, hip, knee, ankle, limb, lower)
-    turn_end_to(body.offset_m, rotations, positions, orientations, knee, ankle, foot, TOES[side])
+    _apply(offset_m, rotations, positions, orientations, PELVIS, hip, knee, ankle, limb, lower)
+    turn_end_to(offset_m, rotations, positions, orientations, knee, ankle, foot, TOES[side])
     return miss_m
 
 
