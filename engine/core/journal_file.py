@@ -20,7 +20,7 @@ LARGEST_BYTES = 1 << 30  # unpacked; a day's recording is 170 MB
 
 def save_journal(journal: Journal, path: str | Path) -> None:
     """Write the recording, whole or not at all. EnvironmentTrouble where it cannot be written."""
-    inputs = sorted(journal.inputs.items())
+    inputs = list(journal.inputs.items())
     parts = [
         block(_json(journal.header)),
         integer(journal.first_tick),

@@ -53,6 +53,13 @@ def test_a_whole_number_fits_a_small_column_and_a_float_one():
     assert Limb(length_m=1).length_m.dtype == np.float64
 
 
+def test_a_float_may_be_rounded_to_its_column():
+    class Light(Component):
+        watts = column(dtype=np.float32)
+
+    assert Light(watts=0.1).watts == np.float32(0.1)
+
+
 def test_declarations_that_cannot_be_state_are_refused():
     with pytest.raises(TypeError, match="booleans, integers or floats"):
         column(dtype=object)

@@ -62,6 +62,24 @@ def test_going_on_after_going_back_replays_with_the_commands():
     assert timeline.world.snapshot() == end
 
 
+def test_a_seek_simulates_no_further_than_from_the_nearest_keyframe():
+    timeline = _timeline(200)
+    steps = []
+    step, timeline._step = timeline._step, lambda world: (steps.append(world.tick), step(world))
+    for tick, simulated in ((7, 7), (199, 19), (199, 0), (185, 5), (187, 2), (180, 0), (0, 0)):
+        steps.clear()
+        timeline.seek(tick)
+        assert len(steps) == simulated
+
+
+def test_playing_again_keeps_no_keyframe_twice():
+    timeline = _timeline(100)
+    timeline.seek(0)
+    while not timeline.at_end:
+        timeline.advance()
+    assert timeline.keyframes.ticks == [0, 30, 60, 90]
+
+
 def test_a_command_in_the_past_starts_another_future():
     timeline = _timeline(90, throws=(10, 70))
     timeline.seek(40)

@@ -108,6 +108,17 @@ def test_a_component_comes_and_goes_clean(world):
         world.remove(entity, Wear)
 
 
+def test_rows_without_a_component_hold_its_fill(world):
+    """A kernel that looks where nobody is must see the same before and after going back."""
+    entity = world.spawn(Flight(position_m=(1, 2, 3)))
+    before = world.snapshot()
+    world.remove(entity, Flight)
+    assert not world[Flight].position_m.any()
+    world[Flight].position_m[:] = 9.0
+    world.restore(before)
+    assert world[Flight].position_m.tolist() == [[1, 2, 3]] + [[0, 0, 0]] * 15
+
+
 def test_columns_are_written_into_and_not_replaced(world):
     world.spawn(Flight())
     world[Flight].velocity_mps += 1.0
@@ -206,6 +217,16 @@ def test_a_gap_in_the_rows_is_hashed_as_its_present_rows(gone):
         assert world.digest() != before
         world[Flight].position_m[row, 1] -= 1.0
         assert world.digest() == before
+
+
+def test_growth_for_some_leaves_no_component_hashed_where_it_was():
+    world, _ = toy()
+    world.digest()
+    for _ in range(100):
+        world.spawn(Marked())
+    before = world.digest()
+    world[Flight].position_m[1, 1] += 1.0
+    assert world.digest() != before
 
 
 def test_the_digest_does_not_see_the_order_in_which_streams_were_opened():

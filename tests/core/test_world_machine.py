@@ -90,17 +90,20 @@ class WorldMachine(RuleBasedStateMachine):
         self.model = copy.deepcopy(model)
         assert self.world.digest() == snapshot.digest
 
+    def is_the_model(self, world):
+        assert len(world) == len(self.model)
+        rows = sorted(handle & 0xFFFFFFFF for handle in self.model)
+        assert world.rows().tolist() == rows
+        for handle, owned in self.model.items():
+            row = world.row(handle)
+            for kind in COMPONENTS:
+                assert world.has(handle, kind) == (kind in owned)
+            for kind, facts in owned.items():
+                assert {name: getattr(world[kind], name)[row].tolist() for name in facts} == facts
+
     @invariant()
     def the_world_is_the_model(self):
-        assert len(self.world) == len(self.model)
-        rows = sorted(handle & 0xFFFFFFFF for handle in self.model)
-        assert self.world.rows().tolist() == rows
-        for handle, owned in self.model.items():
-            row = self.world.row(handle)
-            for kind in COMPONENTS:
-                assert self.world.has(handle, kind) == (kind in owned)
-            for kind, facts in owned.items():
-                assert {name: getattr(self.world[kind], name)[row].tolist() for name in facts} == facts
+        self.is_the_model(self.world)
 
     @invariant()
     def queries_agree(self):
@@ -114,6 +117,7 @@ class WorldMachine(RuleBasedStateMachine):
         """A world with none of this history, given this state, hashes the same and packs the same bytes."""
         fresh = World(COMPONENTS, seed=3)
         fresh.restore(self.world.snapshot())
+        self.is_the_model(fresh)
         assert fresh.snapshot() == self.world.snapshot()
 
 
