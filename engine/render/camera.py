@@ -46,7 +46,7 @@ def orbit_camera(target, azimuth_deg: float, elevation_deg: float, distance_m: f
 
 
 def orbit(camera: Camera, yaw_rad: float, pitch_rad: float) -> Camera:
-    """Swings the eye about the target: positive yaw to the left of what is seen, positive pitch upwards, never over the pole."""
+    """Swings the eye about the target: yaw to the left of what is seen, pitch upwards, never over the pole."""
     back = np.subtract(camera.eye, camera.target)
     distance_m = np.linalg.norm(back)
     azimuth = math.atan2(back[1], back[0]) + yaw_rad
@@ -80,10 +80,11 @@ def follow(camera: Camera, point_m, passed_s: float, half_life_s: float = 0.25) 
 
 
 def frame_all(camera: Camera, points_m, size_px, margin: float = 0.08) -> Camera:
-    """The nearest place from which every point (N, 3) is in the picture, looking the same way; margin is a share of each side.
+    """The nearest place from which every point (N, 3) is in the picture, looking the same way.
 
-    Each point's view coordinates bound the eye along the four sides of the frustum; the two opposite sides that bind give
-    the depth in closed form. Sideways the eye is then put where the outermost points are equally far from the centre.
+    margin: the share of the picture that stays free on each side. Each point's view coordinates bound the eye along the
+    four sides of the frustum; the two opposite sides that bind give the depth in closed form. Sideways the eye is then
+    put where the outermost points are equally far from the centre.
     """
     points = np.asarray(points_m, float).reshape(-1, 3)
     if len(points) == 0:

@@ -90,13 +90,15 @@ class Offscreen:
 
 
 def create_gl(backend: str | None = None) -> moderngl.Context:
-    """A moderngl context on EGL (`backend="egl"`) or on the current window's, or EnvironmentTrouble that says what to install."""
+    """A moderngl context on EGL (`backend="egl"`) or the current window; EnvironmentTrouble says what to install."""
     try:
         if backend:
             gl = moderngl.create_context(standalone=True, backend=backend, require=GL_VERSION_CODE)
         else:
             gl = moderngl.create_context(require=GL_VERSION_CODE)
-    except Exception as trouble:  # moderngl raises bare Exception for a missing library, no device, or a version too old
+    except (
+        Exception
+    ) as trouble:  # moderngl raises bare Exception for a missing library, no device, or a version too old
         raise EnvironmentTrouble("NO_GL", f"no OpenGL 3.3 here ({trouble}); {INSTALL_HINT}") from trouble
     gl.gc_mode = "auto"
     return gl
@@ -106,4 +108,6 @@ def check_gl(gl: moderngl.Context, doing: str) -> None:
     """moderngl keeps quiet about GL errors: after each frame this does not."""
     error = gl.error
     if error != "GL_NO_ERROR":
-        raise EnvironmentTrouble("GL_ERROR", f"{error} while {doing} with {gl.info['GL_RENDERER']}; update the graphics driver")
+        raise EnvironmentTrouble(
+            "GL_ERROR", f"{error} while {doing} with {gl.info['GL_RENDERER']}; update the graphics driver"
+        )

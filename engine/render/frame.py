@@ -1,4 +1,4 @@
-"""What every pass of a frame shares, packed as `shaders/include/frame.glsl` reads it; and the key light with its shadow."""
+"""What every pass of a frame shares, packed as `shaders/include/frame.glsl` reads it; the key light and its shadow."""
 
 from __future__ import annotations
 
@@ -56,7 +56,9 @@ def fit_shadow(scene: Scene) -> Shadow | None:
         from_world[row, :3] = axis / span
         from_world[row, 3] = -start / span
     fallen = points[:, :2] - points[:, 2:] * TO_LIGHT[:2] / TO_LIGHT[2]
-    return Shadow(from_world, size_px, texel_m, fallen.min(axis=0) - SHADOW_MARGIN_M, fallen.max(axis=0) + SHADOW_MARGIN_M)
+    return Shadow(
+        from_world, size_px, texel_m, fallen.min(axis=0) - SHADOW_MARGIN_M, fallen.max(axis=0) + SHADOW_MARGIN_M
+    )
 
 
 def frame_bytes(scene: Scene, camera: Camera, size_px, shadow: Shadow | None) -> bytes:

@@ -7,7 +7,9 @@ from PIL import Image, ImageDraw, ImageFont
 
 # what Pillow's own font can draw, and the nearest to what it cannot
 LETTERS = "".join(chr(code) for code in range(32, 127)) + "°"
-REPLACED = str.maketrans({"–": "-", "—": "-", "−": "-", "×": "x", "·": ".", "’": "'", "…": "...", "µ": "u", "→": ">", "±": "~"})
+REPLACED = str.maketrans(
+    {"–": "-", "—": "-", "−": "-", "×": "x", "·": ".", "’": "'", "…": "...", "µ": "u", "→": ">", "±": "~"}
+)
 _COLUMNS = 16
 
 
@@ -28,7 +30,7 @@ class GlyphAtlas:
         return sum(self.advance_px[letter] for letter in drawable(text))
 
     def laid_out(self, text: str, x_px: float, y_px: float, colour) -> np.ndarray:
-        """(N, 12): for each letter its box on the picture, its box in the atlas (0..1), its colour. x, y: the line's top left."""
+        """(N, 12): each letter's box on the picture, its box in the atlas (0..1), its colour. x, y: the line's top left."""
         rows, pen = [], round(x_px)
         height, width = self.picture.shape[:2]
         cell_width, cell_height = self.cell_px
@@ -48,7 +50,9 @@ class GlyphAtlas:
         for count, letter in enumerate(LETTERS):
             corner = (count % _COLUMNS * cell_width + 2 * self.halo_px, count // _COLUMNS * cell_height + self.halo_px)
             ImageDraw.Draw(plain).text(corner, letter, fill=255, font=self.font)
-            ImageDraw.Draw(haloed).text(corner, letter, fill=255, font=self.font, stroke_width=self.halo_px, stroke_fill=255)
+            ImageDraw.Draw(haloed).text(
+                corner, letter, fill=255, font=self.font, stroke_width=self.halo_px, stroke_fill=255
+            )
         return np.stack([np.asarray(plain), np.asarray(haloed)], axis=-1)
 
 

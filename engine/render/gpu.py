@@ -23,7 +23,9 @@ def make_pass(gl: moderngl.Context, name: str, **defines: int) -> moderngl.Progr
 class Instances:
     """One static mesh drawn many times: per-copy data in one buffer that grows by doubling, uploaded once a frame."""
 
-    def __init__(self, gl, programs, mesh_layout, layout: str, attributes: tuple[str, ...], index=None, mode=moderngl.TRIANGLES):
+    def __init__(
+        self, gl, programs, mesh_layout, layout: str, attributes: tuple[str, ...], index=None, mode=moderngl.TRIANGLES
+    ):
         """mesh_layout: moderngl's (buffer, format, names...) of the mesh; layout and attributes: of one copy."""
         self.gl, self.programs, self.mesh_layout, self.index, self.mode = gl, programs, mesh_layout, index, mode
         self.layout, self.attributes = layout, attributes

@@ -1,4 +1,4 @@
-"""The figure: a jointed mannequin sculpted around one Body's own bone lengths, each part rigid to the joint that carries it.
+"""The figure: a jointed mannequin sculpted around one Body's own bone lengths, each part rigid to its joint.
 
 Every dimension is the subject's: along the bones from the Body, across them from stature (proportions of an average
 adult, after the drawings of Loomis, *Figure Drawing for All It's Worth*, and the breadths of ISO 7250). Each part is
@@ -65,7 +65,7 @@ def mannequin_parts(body: Body) -> list[Part]:
 
 
 def rest_positions(body: Body) -> np.ndarray:
-    """(21, 3) joints of the identity pose, the pelvis at the origin: all frames are parallel, so offsets just add up."""
+    """(21, 3) joints of the identity pose, the pelvis at the origin: frames are parallel, so offsets just add up."""
     rest = np.zeros((sk.JOINT_COUNT, 3))
     for joint in range(1, sk.JOINT_COUNT):
         rest[joint] = rest[sk.PARENT[joint]] + body.offset_m[joint]
@@ -80,7 +80,7 @@ def stature_m(body: Body) -> float:
 
 
 def _trunk(body: Body, rest: np.ndarray, size: float) -> list[Part]:
-    """Pelvis, midriff, rib cage, the shoulder girdle and the neck, placed by heights between the hips and the neck's root."""
+    """Pelvis, midriff, rib cage, shoulder girdle and neck, placed by heights between the hips and the neck's root."""
     hips = 0.5 * (rest[sk.LEFT_HIP] + rest[sk.RIGHT_HIP])
     neck, back = rest[sk.NECK], rest[sk.BACK]
     height = neck[2] - hips[2]
@@ -110,7 +110,9 @@ def _trunk(body: Body, rest: np.ndarray, size: float) -> list[Part]:
         *[_trapezius(rest, side, size) for side in (sk.LEFT, sk.RIGHT)],
     )
     ribs = carve(0.03 * size, ribs, half_space(at(0.405), (0, 0, 1.0)))
-    throat = taper((-0.004 * size, 0, -0.03 * size), body.offset_m[sk.HEAD] + (0.0, 0, 0.01 * size), 0.060 * size, 0.053 * size)
+    throat = taper(
+        (-0.004 * size, 0, -0.03 * size), body.offset_m[sk.HEAD] + (0.0, 0, 0.01 * size), 0.060 * size, 0.053 * size
+    )
     parts = [
         Part(sk.PELVIS, SHELL, _shifted(pelvis, -rest[sk.PELVIS]), 0.0205 * size),
         Part(sk.WAIST, JOINT, _shifted(midriff, -rest[sk.WAIST]), 0.030 * size),
@@ -144,7 +146,7 @@ def _girdle(body: Body, side: int, size: float) -> Part:
 
 
 def _head(body: Body, size: float) -> list[Part]:
-    """Skull, face and jaw with brow, nose, chin and ears, and a dark visor where the eyes are: it must be plain where it looks."""
+    """Skull, face and jaw with brow, nose, chin and ears, and a dark visor for eyes: it must be plain where it looks."""
     crown, size = body.head_top_m, 1.04 * size  # a little large, as sculptors make it: it carries the expression
 
     def at(forward: float, left: float, below: float) -> np.ndarray:
@@ -216,8 +218,18 @@ def _hand(body: Body, side: int, size: float) -> list[Part]:
         ellipsoid(0.96 * palm, (0.041 * size, 0.0175 * size, 0.285 * length), 2.8),
         taper(knuckles, middle, 0.0185 * size, 0.0165 * size, flat=wide),
         taper(middle, end, 0.0165 * size, 0.0125 * size, flat=wide),
-        taper(0.20 * tip + (0.018 * size, 0.003 * inward, 0), 0.40 * tip + (0.047 * size, 0.012 * inward, 0), 0.0165 * size, 0.0125 * size),
-        taper(0.40 * tip + (0.047 * size, 0.012 * inward, 0), 0.57 * tip + (0.054 * size, 0.017 * inward, 0), 0.0125 * size, 0.0095 * size),
+        taper(
+            0.20 * tip + (0.018 * size, 0.003 * inward, 0),
+            0.40 * tip + (0.047 * size, 0.012 * inward, 0),
+            0.0165 * size,
+            0.0125 * size,
+        ),
+        taper(
+            0.40 * tip + (0.047 * size, 0.012 * inward, 0),
+            0.57 * tip + (0.054 * size, 0.017 * inward, 0),
+            0.0125 * size,
+            0.0095 * size,
+        ),
     )
     return [Part(wrist, SHELL, hand, 0.0085 * size)]
 
@@ -257,8 +269,17 @@ def _foot(body: Body, side: int, size: float) -> list[Part]:
     foot = blend(
         0.03 * size,
         ellipsoid(heel + (0.026 * size, 0, 0.026 * size), (0.036 * size, heel_half, 0.034 * size), 2.3),
-        taper((-0.004 * size, 0, -0.020 * size), (0.8 * to_toe[0], 0.8 * to_toe[1], ground + thick), 0.037 * size, 0.026 * size),
-        ellipsoid((to_toe[0] - 0.010 * size, ball_of_foot[1], ground + 0.024 * size), (0.046 * size, ball_half, 0.028 * size), 2.3),
+        taper(
+            (-0.004 * size, 0, -0.020 * size),
+            (0.8 * to_toe[0], 0.8 * to_toe[1], ground + thick),
+            0.037 * size,
+            0.026 * size,
+        ),
+        ellipsoid(
+            (to_toe[0] - 0.010 * size, ball_of_foot[1], ground + 0.024 * size),
+            (0.046 * size, ball_half, 0.028 * size),
+            2.3,
+        ),
     )
     under_toes = ground - to_toe[2]
     length = tip[0] + 0.006 * size

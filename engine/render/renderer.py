@@ -24,7 +24,7 @@ FRAME_BYTES = 2 * 64 + 8 * 16
 
 
 class Targets(NamedTuple):
-    """What is drawn into, all of one size. The dummies are there because a depth buffer is copied along with a colour."""
+    """What is drawn into, all of one size. The dummies are there because depth is only copied along with a colour."""
 
     size_px: tuple[int, int]
     sampled: moderngl.Framebuffer  # multisampled colour and depth
@@ -35,7 +35,7 @@ class Targets(NamedTuple):
 
 
 class Renderer:
-    """Draws scenes on a context; the finished picture waits in `picture` (see read_rgb) until the context presents it."""
+    """Draws scenes on a context; the finished picture waits (see read_rgb) until the context presents it."""
 
     def __init__(self, context: Context, samples: int = SAMPLES):
         self.context, self.gl = context, context.gl
@@ -158,7 +158,9 @@ class Renderer:
             try:
                 self.targets = make_targets(self.gl, size_px, self.samples)
             except moderngl.Error as trouble:
-                raise EnvironmentTrouble("GL_MEMORY", f"cannot make a picture of {size_px[0]} x {size_px[1]}: {trouble}") from trouble
+                raise EnvironmentTrouble(
+                    "GL_MEMORY", f"cannot make a picture of {size_px[0]} x {size_px[1]}: {trouble}"
+                ) from trouble
         return self.targets
 
 

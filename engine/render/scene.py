@@ -49,7 +49,7 @@ class Ball:
 
 @dataclass(frozen=True)
 class Balance:
-    """Where a character's weight is, drawn on the floor: the support polygon, the COM's foot point and where it is wanted."""
+    """Where a character's weight is, drawn on the floor: support polygon, the COM's foot point, where it is wanted."""
 
     support_m: np.ndarray  # (N, 2) corners in order, world; fewer than three: only the marker
     com_m: Any = None  # (3,) world; None draws no marker
@@ -85,7 +85,9 @@ def extent_points(scene: Scene) -> np.ndarray:
     for figure in scene.figures:
         points += [figure.positions + reach for reach in 0.13 * np.vstack([np.eye(3), -np.eye(3)])]
     for ball in scene.balls:
-        points += [np.asarray(ball.position_m, float) + reach for reach in ball.radius_m * np.vstack([np.eye(3), -np.eye(3)])]
+        points += [
+            np.asarray(ball.position_m, float) + reach for reach in ball.radius_m * np.vstack([np.eye(3), -np.eye(3)])
+        ]
     points = np.vstack(points)
     points[:, 2] = np.maximum(points[:, 2], 0.0)
     return points

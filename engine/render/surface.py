@@ -102,7 +102,7 @@ def half_space(point, outward) -> Field:
 
 
 def mesh(shape: Shape, cell_m: float) -> Mesh:
-    """Surface nets on a grid of that cell, then each vertex moved onto the surface. Vertices are in the shape's own frame."""
+    """Surface nets on a grid of that cell, then each vertex moved onto the surface. In the shape's own frame."""
     low = shape.low - 1.5 * cell_m
     counts = np.ceil((shape.high + 1.5 * cell_m - low) / cell_m).astype(int) + 1
     grid = np.stack(np.meshgrid(*[np.arange(n) for n in counts], indexing="ij"), axis=-1)

@@ -1,4 +1,4 @@
-"""What lies on the floor: the soft dark where something touches it, support polygons, the centre of mass's foot point."""
+"""What lies on the floor: the soft dark where something touches it, and the marks of the centre of mass."""
 
 from __future__ import annotations
 
@@ -72,10 +72,32 @@ def _balance_marks(scene: Scene) -> list[tuple[float, ...]]:
     for balance in scene.balances:
         if balance.wanted_m is not None:
             x, y = np.asarray(balance.wanted_m, float)[:2]
-            rows.append(_mark(x, y, 0.0, 1.45 * MARK_RADIUS_M, 1.45 * MARK_RADIUS_M, (*balance.colour[:3], 1.0), OPEN_RING, level=2))
+            rows.append(
+                _mark(
+                    x,
+                    y,
+                    0.0,
+                    1.45 * MARK_RADIUS_M,
+                    1.45 * MARK_RADIUS_M,
+                    (*balance.colour[:3], 1.0),
+                    OPEN_RING,
+                    level=2,
+                )
+            )
         if balance.com_m is not None:
             x, y = np.asarray(balance.com_m, float)[:2]
-            rows.append(_mark(x, y, 0.0, MARK_RADIUS_M, MARK_RADIUS_M, (*(0.55 * np.asarray(balance.colour[:3])), 1.0), COM_MARK, level=3))
+            rows.append(
+                _mark(
+                    x,
+                    y,
+                    0.0,
+                    MARK_RADIUS_M,
+                    MARK_RADIUS_M,
+                    (*(0.55 * np.asarray(balance.colour[:3])), 1.0),
+                    COM_MARK,
+                    level=3,
+                )
+            )
     return rows
 
 

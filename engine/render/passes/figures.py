@@ -30,7 +30,9 @@ class FigurePass:
     def upload(self, figures: list[Figure], eye_m) -> None:
         """Solid figures are grouped by body; ghosts sorted from far to near, so that blending composes."""
         solid = [figure for figure in figures if figure.alpha >= 1.0]
-        ghosts = sorted((figure for figure in figures if 0.0 < figure.alpha < 1.0), key=lambda figure: -_distance(figure, eye_m))
+        ghosts = sorted(
+            (figure for figure in figures if 0.0 < figure.alpha < 1.0), key=lambda figure: -_distance(figure, eye_m)
+        )
         groups: dict[bytes, list[tuple[int, Figure, bool]]] = {}
         for row, figure in enumerate(solid + ghosts):
             groups.setdefault(body_key(figure.body), []).append((row, figure, row >= len(solid)))
@@ -38,7 +40,9 @@ class FigurePass:
         self.solid, placed = [], {}
         for key, members in groups.items():
             instances = self._mesh(key, members[0][1].body)
-            instances.upload(np.array([(*linear(figure.colour), figure.alpha, row) for row, figure, _ in members], "f4"))
+            instances.upload(
+                np.array([(*linear(figure.colour), figure.alpha, row) for row, figure, _ in members], "f4")
+            )
             self.solid.append((instances, sum(not ghost for *_, ghost in members)))
             placed.update({row: (instances, place) for place, (row, _, ghost) in enumerate(members) if ghost})
         self.ghosts = [placed[row] for row in sorted(placed)]

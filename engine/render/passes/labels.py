@@ -1,4 +1,4 @@
-"""Words on the picture: at points of the world, and captions in the corners. Drawn after resolving, so they stay crisp."""
+"""Words on the picture: at points of the world, and captions in the corners. Drawn last, so they stay crisp."""
 
 from __future__ import annotations
 
@@ -26,7 +26,9 @@ class LabelPass:
         corners = gl.buffer(np.array([(0, 0), (0, 1), (1, 0), (1, 1)], "f4").tobytes())
         attributes = ("box_px", "box_atlas", "colour")
         self.labels, self.captions = (
-            Instances(gl, [self.program], (corners, "2f", "corner"), "4f 4f 4f", attributes, mode=moderngl.TRIANGLE_STRIP)
+            Instances(
+                gl, [self.program], (corners, "2f", "corner"), "4f 4f 4f", attributes, mode=moderngl.TRIANGLE_STRIP
+            )
             for _ in range(2)
         )
         self.atlases: dict[int, tuple[GlyphAtlas, moderngl.Texture]] = {}
@@ -73,7 +75,9 @@ class LabelPass:
     def _atlas(self, font_px: int) -> tuple[GlyphAtlas, moderngl.Texture]:
         if font_px not in self.atlases:
             atlas = GlyphAtlas(font_px)
-            texture = self.gl.texture(atlas.picture.shape[1::-1], 2, np.ascontiguousarray(atlas.picture).tobytes(), alignment=1)
+            texture = self.gl.texture(
+                atlas.picture.shape[1::-1], 2, np.ascontiguousarray(atlas.picture).tobytes(), alignment=1
+            )
             texture.filter = (self.gl.LINEAR, self.gl.LINEAR)
             self.atlases[font_px] = (atlas, texture)
         return self.atlases[font_px]

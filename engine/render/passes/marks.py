@@ -28,7 +28,12 @@ class MarkPass:
             "3f 3f 4f 2f", ("start_m", "end_m", "colour", "width_px"), mode=strip,
         )  # fmt: skip
         self.dots = Instances(
-            gl, [self.dot], (gl.buffer(SQUARE.tobytes()), "2f", "corner"), "3f 4f 1f", ("centre_m", "colour", "radius_m"), mode=strip
+            gl,
+            [self.dot],
+            (gl.buffer(SQUARE.tobytes()), "2f", "corner"),
+            "3f 4f 1f",
+            ("centre_m", "colour", "radius_m"),
+            mode=strip,
         )
         self.patch = make_pass(gl, "patch")
         self.patch_buffer = gl.buffer(reserve=4096, dynamic=True)

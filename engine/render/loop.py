@@ -1,0 +1,68 @@
+"""The interactive loop: the one place where the wall clock, the user and the renderer meet.
+
+Nothing here knows what is shown:
+
+    run_loop(context, Renderer(context), show)
+
+`show` is anything with the three methods of `Show`; `demos` has the real ones, tests have tiny ones.
+"""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable
+from typing import Protocol
+
+from engine.render.camera import Camera
+from engine.render.context import Context
+from engine.render.controls import CameraHands, steadied
+from engine.render.events import Event
+from engine.render.renderer import Renderer
+from engine.render.scene import Scene, extent_points
+
+
+class Show(Protocol):
+    """What a demo gives the loop."""
+
+    def handle(self, events: list[Event], camera: Camera, size_px: tuple[int, int]) -> None:
+        """What the user did, less what moved the camera. The camera and size turn pixels into rays."""
+
+    def advance(self, passed_s: float) -> None:
+        """Real time has passed; the show's clock decides how many ticks that is."""
+
+    def scene(self) -> Scene:
+        """What to draw now. `scene.floor`, balances and so on are the show's choice."""
+
+
+def run_loop(
+    context: Context,
+    renderer: Renderer,
+    show: Show,
+    *,
+    hands: CameraHands | None = None,
+    follow: Callable[[], object] | None = None,
+    frames: int | None = None,
+    clock: Callable[[], float] = time.perf_counter,
+) -> CameraHands:
+    """Runs until the window closes, or for a number of frames. Returns the hands, with the camera where it was left.
+
+    follow: gives a point (3,) that the camera keeps up with. hands None: the first picture frames everything in it.
+    """
+    hands = hands or CameraHands(centred=True)
+    last_s, drawn = clock(), 0
+    while not context.closing and (frames is None or drawn < frames):
+        size_px = context.size_px
+        events = hands.take(context.poll(), size_px)
+        now_s = clock()
+        passed_s, last_s = now_s - last_s, now_s
+        show.handle(events, hands.camera, size_px)
+        show.advance(passed_s)
+        scene = show.scene()
+        if hands.centred:
+            hands.frame(extent_points(scene), size_px)
+        elif follow is not None:
+            hands.follow(follow(), passed_s)
+        renderer.draw(scene, steadied(hands.camera))
+        renderer.present()
+        drawn += 1
+    return hands
