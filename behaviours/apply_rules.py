@@ -5,14 +5,12 @@ The feet are planted after the turn, which turns the pelvis and would drag them.
 
 from __future__ import annotations
 
-import math
-
 from numba import njit
 
 from behaviours.perceived import target_centre
 from behaviours.rules import block, lean, recoil, turn, wrap
 from behaviours.rules.controls import LEAN, REACH_LEFT, RECOIL, SWIVEL_LEFT, TURN
-from engine.body.limb_ik import DOWN, KEEP, apply_arm, apply_leg, place_children, turn_hand_to
+from engine.body.limb_ik import DOWN, KEEP, SOFT_REACH_M, arm_onto, leg_onto, place_children
 from engine.body.limits import clamp_rotation
 from engine.body.skeleton import (
     ANKLES,
@@ -23,7 +21,6 @@ from engine.body.skeleton import (
     HIPS,
     JOINT_COUNT,
     KNEES,
-    NECK,
     PELVIS,
     SHOULDERS,
     TOES,
@@ -32,7 +29,11 @@ from engine.body.skeleton import (
 )
 from engine.maths import quaternion, vector
 
-HAND_PASSES = 2  # the hand's turn moves the palm, the arm follows, the hand turns again: 2 mm off after the second
+SAME_TURN_RAD = 1e-6  # a hand that got the turn it wanted needs no second look
+
+# These kernels run some hundred times a pose. Joined into one (forceinline), they need not count references to the
+# arrays that they hand on, which would cost as much as the arithmetic.
+kernel = njit(cache=True, forceinline=True)
 
 
 @njit(cache=True)
@@ -44,7 +45,7 @@ def apply_rules(task, pelvis_shift, controls, soft_m, posed):
         guard(task, side, controls, posed)
 
 
-@njit(cache=True)
+@kernel
 def place_trunk(task, pelvis_shift, controls, posed):
     """The pelvis moved, then lean and turn, within the joints' limits; the trunk, neck and head placed in the world."""
     start, threat, rules = task.start, task.threat, task.rules
@@ -61,78 +62,79 @@ def place_trunk(task, pelvis_shift, controls, posed):
         posed.positions[PELVIS, k] = start.root_m[k] + pelvis_shift[k]
     for k in range(4):
         posed.orientations[PELVIS, k] = posed.rotations[PELVIS, k]
-    offset_m = task.body.offset_m
-    for joint in (WAIST, BACK, NECK):
-        _clamp(start, posed, joint)
-    place_children(offset_m, posed.rotations, posed.positions, posed.orientations, PELVIS, WAIST)
-    place_children(offset_m, posed.rotations, posed.positions, posed.orientations, WAIST, BACK)
-    place_children(offset_m, posed.rotations, posed.positions, posed.orientations, BACK, NECK)
-    place_children(offset_m, posed.rotations, posed.positions, posed.orientations, NECK, HEAD)
+    for joint in range(WAIST, HEAD + 1):  # each the parent of the next
+        if joint != HEAD:
+            _clamp(start.low_rad, start.high_rad, posed.rotations, joint)
+        _place(task.bones.offset_m, posed, joint - 1, joint)
 
 
-@njit(cache=True)
-def _clamp(start, posed, joint):
-    q = clamp_rotation(start.low_rad[joint], start.high_rad[joint], posed.rotations[joint])
-    posed.rotations[joint, 0], posed.rotations[joint, 1], posed.rotations[joint, 2], posed.rotations[joint, 3] = q
+@kernel
+def _clamp(low_rad, high_rad, rotations, joint):
+    q = clamp_rotation(low_rad[joint], high_rad[joint], rotations[joint])
+    rotations[joint, 0], rotations[joint, 1], rotations[joint, 2], rotations[joint, 3] = q
 
 
-@njit(cache=True)
-def _place(task, posed, parent, joint):
-    place_children(task.body.offset_m, posed.rotations, posed.positions, posed.orientations, parent, joint)
+@kernel
+def _place(offset_m, posed, parent, joint):
+    place_children(offset_m, posed.rotations, posed.positions, posed.orientations, parent, joint)
 
 
-@njit(cache=True)
+@kernel
 def plant_leg(task, side, soft_m, posed):
     """A held foot is put where it stands by leg IK; the knee keeps pointing where it did in the world, over the foot."""
     hip, knee, ankle, toe = HIPS[side], KNEES[side], ANKLES[side], TOES[side]
-    feet, start = task.feet, task.start
+    bones, feet = task.bones, task.feet
     posed.foot_miss_m[side] = 0.0
     if feet.held[side]:
         # the pelvis turns away over a foot that stays: the thigh starts from its own place in the world, not the pelvis's
-        thigh = quaternion.multiply(quaternion.conjugate(posed.orientations[PELVIS]), start.orientations[hip])
+        thigh = quaternion.multiply(quaternion.conjugate(posed.orientations[PELVIS]), task.start.orientations[hip])
         for k in range(4):
             posed.rotations[hip, k] = thigh[k]
             posed.rotations[toe, k] = feet.toe[side, k]
-    _place(task, posed, PELVIS, hip)
-    _place(task, posed, hip, knee)
-    _place(task, posed, knee, ankle)
+    _place(bones.offset_m, posed, PELVIS, hip)
+    _place(bones.offset_m, posed, hip, knee)
+    _place(bones.offset_m, posed, knee, ankle)
     if feet.held[side]:
-        posed.foot_miss_m[side] = apply_leg(
-            task.body, posed.rotations, posed.positions, posed.orientations, side,
-            feet.ankle_m[side], feet.turned[side], KEEP, soft_m,
+        posed.foot_miss_m[side] = leg_onto(
+            bones.offset_m, bones.knee_rad[side], posed.rotations, posed.positions, posed.orientations, side,
+            (feet.ankle_m[side, 0], feet.ankle_m[side, 1], feet.ankle_m[side, 2]), feet.turned[side], KEEP, soft_m,
         )  # fmt: skip
     else:
-        _place(task, posed, ankle, toe)
+        _place(bones.offset_m, posed, ankle, toe)
 
 
-@njit(cache=True)
+@kernel
 def guard(task, side, controls, posed):
     """Recoil and block of one side: the clavicle raised, the palm put where it belongs, the elbow at its swivel."""
-    start, rules = task.start, task.rules
+    bones, start = task.bones, task.start
     clavicle, shoulder, elbow, wrist = CLAVICLES[side], SHOULDERS[side], ELBOWS[side], WRISTS[side]
-    recoil.raise_clavicle(posed.rotations, side, controls[RECOIL], rules.recoil)
-    _clamp(start, posed, clavicle)
-    _place(task, posed, BACK, clavicle)
-    _place(task, posed, clavicle, shoulder)
-    _place(task, posed, shoulder, elbow)
-    _place(task, posed, elbow, wrist)
+    recoil.raise_clavicle(posed.rotations, side, controls[RECOIL], task.rules.recoil)
+    _clamp(start.low_rad, start.high_rad, posed.rotations, clavicle)
+    _place(bones.offset_m, posed, BACK, clavicle)
+    _place(bones.offset_m, posed, clavicle, shoulder)
+    _place(bones.offset_m, posed, shoulder, elbow)
+    _place(bones.offset_m, posed, elbow, wrist)
     palm, hand, swivel = guard_goal(task, side, controls, posed)
-    for _ in range(HAND_PASSES):
-        put_palm(task, side, palm, hand, swivel, posed)
-    held = vector.add(
-        posed.positions[wrist], quaternion.rotate(posed.orientations[wrist], task.body.palm_m[side])
-    )
-    posed.palms[side, 0], posed.palms[side, 1], posed.palms[side, 2] = held
+    turned = hand
+    for _ in range(2):
+        # a hand stopped by its limits holds its palm elsewhere: the arm follows once
+        put_palm(bones, start.low_rad, start.high_rad, side, palm, turned, hand, swivel, posed)
+        q = posed.orientations[wrist]
+        turned = (q[0], q[1], q[2], q[3])
+        if quaternion.angle_between(turned, hand) < SAME_TURN_RAD:
+            break
+    at = vector.add(posed.positions[wrist], quaternion.rotate(posed.orientations[wrist], bones.palm_m[side]))
+    posed.palms[side, 0], posed.palms[side, 1], posed.palms[side, 2] = at
 
 
-@njit(cache=True)
+@kernel
 def guard_goal(task, side, controls, posed):
     """Where one palm is wanted, how the hand is turned (world) and the elbow's swivel: block, wrap, or a mixture."""
-    start, threat, choices = task.start, task.threat, task.choices
+    bones, threat, choices = task.bones, task.threat, task.choices
     b, w, p = task.rules.block, task.rules.wrap, task.rules.pelvis
     reach_control, swivel_control = controls[REACH_LEFT + side], controls[SWIVEL_LEFT + side]
-    head_reach = block.reach_m(reach_control, b.reach_far_m, b.reach_near_m, start.arm_m[side], b.arm_share)
-    pelvis_reach = block.reach_m(reach_control, p.reach_far_m, p.reach_near_m, start.arm_m[side], b.arm_share)
+    head_reach = block.reach_m(reach_control, b.reach_far_m, b.reach_near_m, bones.arm_m[side], b.arm_share)
+    pelvis_reach = block.reach_m(reach_control, p.reach_far_m, p.reach_near_m, bones.arm_m[side], b.arm_share)
     palm = block.palm_target(
         side,
         posed.positions[SHOULDERS[side]],
@@ -150,37 +152,38 @@ def guard_goal(task, side, controls, posed):
     swivel = block.swivel_rad(swivel_control, b.swivel_small_rad, b.swivel_large_rad)
     if choices.wrap > 0.0:
         head = posed.orientations[HEAD]
-        centre = vector.add(posed.positions[HEAD], quaternion.rotate(head, start.head_centre_m))
-        behind = wrap.wrapped_palm(side, centre, head, start.head_radius_m, w)
+        centre = vector.add(posed.positions[HEAD], quaternion.rotate(head, bones.head_centre_m))
+        behind = wrap.wrapped_palm(side, centre, head, bones.head_radius_m, w)
         normal, fingers = wrap.wrapped_hand(side, head, w)
-        palm = wrap.around_head(vector.mix(palm, behind, choices.wrap), centre, start.head_radius_m + w.palm_gap_m)
+        palm = wrap.around_head(vector.mix(palm, behind, choices.wrap), centre, bones.head_radius_m + w.palm_gap_m)
         hand = quaternion.slerp(hand, block.hand_facing(side, normal, fingers), choices.wrap)
         swivel += (w.swivel_rad - swivel) * choices.wrap
     return palm, hand, swivel
 
 
-@njit(cache=True)
-def put_palm(task, side, palm, hand, swivel, posed):
-    """Moves the arm so that the palm, as the hand is turned now, is on its target; then turns the hand as far as it goes."""
-    body, start = task.body, task.start
-    clavicle, shoulder, elbow, wrist = CLAVICLES[side], SHOULDERS[side], ELBOWS[side], WRISTS[side]
-    at = vector.subtract(palm, quaternion.rotate(posed.orientations[wrist], body.palm_m[side]))
-    apply_arm(body, posed.rotations, posed.positions, posed.orientations, side, at, swivel, DOWN)
-    turn_hand(task, side, hand, posed)
+@kernel
+def put_palm(bones, low_rad, high_rad, side, palm, turned, hand, swivel, posed):
+    """Moves the arm so that a hand turned like `turned` has its palm on the target; then turns it to `hand`, as far as it goes."""
+    at = vector.subtract(palm, quaternion.rotate(turned, bones.palm_m[side]))
+    arm_onto(
+        bones.offset_m, bones.elbow_rad[side], posed.rotations, posed.positions, posed.orientations, side,
+        at, swivel, DOWN, SOFT_REACH_M,
+    )  # fmt: skip
+    turn_hand(bones.offset_m, low_rad, high_rad, side, hand, posed)
 
 
-@njit(cache=True)
-def turn_hand(task, side, hand, posed):
+@kernel
+def turn_hand(offset_m, low_rad, high_rad, side, hand, posed):
     """Gives the hand a world orientation within the limits: what turns about the forearm is the forearm's to do."""
-    start, elbow, wrist = task.start, ELBOWS[side], WRISTS[side]
+    shoulder, elbow, wrist = SHOULDERS[side], ELBOWS[side], WRISTS[side]
     wanted = quaternion.multiply(quaternion.conjugate(posed.orientations[elbow]), hand)
     # wanted = twist * swing, the forearm turning first: the split of the inverse, inverted
     _, twist = quaternion.swing_twist(quaternion.conjugate(wanted))
     turned = quaternion.multiply(posed.rotations[elbow], quaternion.conjugate(twist))
     posed.rotations[elbow, 0], posed.rotations[elbow, 1], posed.rotations[elbow, 2], posed.rotations[elbow, 3] = turned
-    _clamp(start, posed, elbow)
-    _place(task, posed, SHOULDERS[side], elbow)
+    _clamp(low_rad, high_rad, posed.rotations, elbow)
+    _place(offset_m, posed, shoulder, elbow)
     swing = quaternion.multiply(quaternion.conjugate(posed.orientations[elbow]), hand)
     posed.rotations[wrist, 0], posed.rotations[wrist, 1], posed.rotations[wrist, 2], posed.rotations[wrist, 3] = swing
-    _clamp(start, posed, wrist)
-    _place(task, posed, elbow, wrist)
+    _clamp(low_rad, high_rad, posed.rotations, wrist)
+    _place(offset_m, posed, elbow, wrist)

@@ -9,24 +9,22 @@ from numba import njit
 
 from behaviours import plant
 from behaviours.apply_rules import place_trunk
-from behaviours.perceived import NO_JOINT, PerceivedThreat, head_centre_m, head_radius_m, target_centre
+from behaviours.perceived import PerceivedThreat, target_centre
 from behaviours.rules.controls import controls_from_threat
 from behaviours.rules.turn import turn_side, wanted_turn
 from behaviours.rules.wrap import wrap_share
 from behaviours.settings import Settings
-from behaviours.task import Choices, FeetPlan, Posed, Rules, Start, Task, new_posed
+from behaviours.task import Choices, Posed, Rules, Start, Task, bones_of, new_posed
 from engine.body.kinematics import joints_of
 from engine.body.limits import components
 from engine.body.skeleton import (
     BACK,
-    ELBOWS,
     HEAD,
     HIPS,
     JOINT_COUNT,
     LEFT_SHOULDER,
     PELVIS,
     RIGHT_SHOULDER,
-    WRISTS,
     Body,
     Pose,
 )
@@ -60,7 +58,7 @@ def prepare(
     )  # fmt: skip
     legs_ahead = [landing or not stands for stands in feet.held]
     start = start_pose(body, pose_now, pose_ahead, legs_ahead)
-    task = Task(body, start, feet, threat, _no_choices(), rules_of(settings))
+    task = Task(bones_of(body), start, feet, threat, _no_choices(), rules_of(settings))
     task = task._replace(choices=choose_turn(task, settings, previous_turn_side))
 
     # the pelvis turns and leans, then is drawn within reach of the planted feet, then the foot in the air is set down
@@ -90,7 +88,6 @@ def start_pose(body: Body, pose_now: Pose, pose_ahead: Pose, legs_ahead) -> Star
     _, orientations = joints_of(body, Pose(root_m, rotations))
     low, high = np.empty((JOINT_COUNT, 3)), np.empty((JOINT_COUNT, 3))
     _widened_limits(body.limit_low_rad, body.limit_high_rad, rotations, low, high)
-    arm = np.sqrt(np.sum(body.offset_m[list(ELBOWS + WRISTS)] ** 2, axis=1))
     return Start(
         root_m,
         rotations,
@@ -98,9 +95,6 @@ def start_pose(body: Body, pose_now: Pose, pose_ahead: Pose, legs_ahead) -> Star
         float(quaternion.heading(pose_now.rotations[PELVIS])),
         low,
         high,
-        (float(arm[0] + arm[2]), float(arm[1] + arm[3])),
-        head_centre_m(body),
-        head_radius_m(body),
     )
 
 
@@ -129,7 +123,7 @@ def place_hips(task, controls, posed):
     for side in range(2):
         hip = HIPS[side]
         at = vector.add(
-            posed.positions[PELVIS], quaternion.rotate(posed.orientations[PELVIS], task.body.offset_m[hip])
+            posed.positions[PELVIS], quaternion.rotate(posed.orientations[PELVIS], task.bones.offset_m[hip])
         )
         posed.positions[hip, 0], posed.positions[hip, 1], posed.positions[hip, 2] = at
 
@@ -166,10 +160,10 @@ def choose_guard(task: Task, posed: Posed) -> Choices:
 
 def shoulder_before_recoil(task: Task, posed: Posed, shoulder: int):
     """Where a shoulder is on the turned trunk with the clavicle as the clip has it."""
-    body, start, clavicle = task.body, task.start, shoulder - 1
-    at = vector.add(posed.positions[BACK], quaternion.rotate(posed.orientations[BACK], body.offset_m[clavicle]))
-    turned = quaternion.multiply(posed.orientations[BACK], start.rotations[clavicle])
-    return vector.add(at, quaternion.rotate(turned, body.offset_m[shoulder]))
+    offset_m, clavicle = task.bones.offset_m, shoulder - 1
+    at = vector.add(posed.positions[BACK], quaternion.rotate(posed.orientations[BACK], offset_m[clavicle]))
+    turned = quaternion.multiply(posed.orientations[BACK], task.start.rotations[clavicle])
+    return vector.add(at, quaternion.rotate(turned, offset_m[shoulder]))
 
 
 def aim_point(task: Task) -> tuple[float, float, float]:

@@ -155,6 +155,20 @@ class Timing(NamedTuple):
     slack_share: Annotated[float, Constant("1", "4.2", "how much longer than the TTC the blend takes")] = 0.05
 
 
+class Threats(NamedTuple):
+    """How scripted threats are flown back from contact (3.1)."""
+
+    low_path: Annotated[str, Constant("name", "A1", "raise | shorten: the elevation or the time, where the path would be under ground")] = "raise"
+
+
+class Senses(NamedTuple):
+    """How a free threat is noticed (A6)."""
+
+    horizon_s: Annotated[float, Constant("s", "A6", "how far ahead a flight is predicted")] = 1.6
+    hit_within_m: Annotated[float, Constant("m", "A6", "skin of the ball to the middle of head, torso or pelvis: less is a hit")] = 0.28
+    gone_m: Annotated[float, Constant("m", "A6", "a ball that goes away beyond this is no threat any more")] = 1.0
+
+
 class Blend(NamedTuple):
     """Moving between two poses (4.3)."""
 
@@ -183,6 +197,8 @@ class Recovery(NamedTuple):
     part_two_s: Annotated[float, Constant("s", "4.2", "the rest of the way to the return pose")] = 0.375
     part_one_share: Annotated[float, Constant("1", "4.1.3", "of the return blend that is over after part one")] = 0.25
     hold_s: Annotated[float, Constant("s", "4.2", "the sustained pose is held when nothing was touched")] = 1.0 / 3.0
+    capture_beyond_m: Annotated[float, Constant("m", "A8", "capture point this far outside the feet: knocked down")] = 0.45
+    fallen_hip_share: Annotated[float, Constant("1", "A8", "hips below this share of the leg's length: knocked down")] = 0.55
 
 
 class Settings(NamedTuple):
@@ -199,6 +215,8 @@ class Settings(NamedTuple):
     objective: Objective = Objective()
     solver: Solver = Solver()
     timing: Timing = Timing()
+    threats: Threats = Threats()
+    senses: Senses = Senses()
     blend: Blend = Blend()
     response: Response = Response()
     recovery: Recovery = Recovery()
@@ -208,6 +226,7 @@ CHOICES = {
     "objective.form": ("squares", "literal", "smoothed"),
     "solver.method": ("bfgs", "least_squares"),
     "timing.ttc_model": ("equation", "text"),
+    "threats.low_path": ("raise", "shorten"),
     "blend.knee_rule": ("ends", "least_travel"),
 }
 

@@ -26,7 +26,6 @@ from behaviours.total_error import (
 )
 from engine.body.kinematics import centre_of_mass
 from engine.body.skeleton import BACK, HIPS, PELVIS, WAIST, Body, Pose
-from engine.body.footing import leg_length_m
 from engine.body.support import inside, polygon_of
 from engine.maths import vector
 
@@ -87,19 +86,19 @@ def protect(
 ) -> Protection:
     """The pose in which to meet a threat. Arguments as for `prepare`."""
     task = prepare(body, pose_now, pose_ahead, planted, threat, settings, previous_turn_side, landing)
-    return solve_protection(task, settings)
+    return solve_protection(body, task, settings)
 
 
-def solve_protection(task: Task, settings: Settings) -> Protection:
+def solve_protection(body: Body, task: Task, settings: Settings) -> Protection:
     """Rules pose, search and report, for a task that is prepared."""
     controls = controls_from_threat(task.threat.speed_norm, task.threat.size_norm)
     posed = new_posed()
     rules_shift = pose_exactly(task, np.zeros(3), controls, posed, settings.balance.foot_tolerance_m)
     # the rules pose is the start: what it took to plant its feet exactly belongs to it
     task = task._replace(start=task.start._replace(root_m=task.start.root_m + rules_shift))
-    rules, com_rules = _pose_of(posed), np.array(centre_of_mass(task.body, posed.positions, posed.orientations))
+    rules, com_rules = _pose_of(posed), np.array(centre_of_mass(task.bones, posed.positions, posed.orientations))
     reference = refer_to(task, posed, com_rules, controls, settings)
-    support_rules = polygon_of(task.body, posed.positions, posed.orientations, task.feet.held)
+    support_rules = polygon_of(body, posed.positions, posed.orientations, task.feet.held)
 
     start = np.concatenate([np.zeros(3), controls])
     residuals, scratch = np.empty(RESIDUALS), np.empty(CONTROL_COUNT)
@@ -115,8 +114,8 @@ def solve_protection(task: Task, settings: Settings) -> Protection:
     solution = solve(task, reference, form, start, posed, settings)
     shift, controls_end = solution.variables[:3].copy(), np.clip(solution.variables[3:], 0.0, 1.0)
     shift += pose_exactly(task, shift, controls_end, posed, settings.balance.foot_tolerance_m)
-    sustained, com = _pose_of(posed), np.array(centre_of_mass(task.body, posed.positions, posed.orientations))
-    support = polygon_of(task.body, posed.positions, posed.orientations, task.feet.held)
+    sustained, com = _pose_of(posed), np.array(centre_of_mass(task.bones, posed.positions, posed.orientations))
+    support = polygon_of(body, posed.positions, posed.orientations, task.feet.held)
     final = np.concatenate([shift, solution.variables[3:]])
     residuals_into(task, reference, final, scratch, posed, residuals)
     errors = term_errors(residuals) | {"total": float(solution.value)}
@@ -192,7 +191,7 @@ def pose_exactly(task, shift, controls, posed, tolerance_m):
 def _give(task, side, posed, given):
     """Adds to `given` what brings one hip within reach of its foot."""
     hip, ankle = posed.positions[HIPS[side]], task.feet.ankle_m[side]
-    reach = leg_length_m(task.body, side) - 1e-6
+    reach = task.bones.leg_m[side] - 1e-6
     x, y, z = hip[0] - ankle[0], hip[1] - ankle[1], hip[2] - ankle[2]
     level = reach * reach - x * x - y * y
     if level > 0.25 * reach * reach:

@@ -10,11 +10,27 @@ from typing import NamedTuple
 import numpy as np
 from numba import njit
 
-from behaviours.perceived import PerceivedThreat
+from behaviours.perceived import PerceivedThreat, head_centre_m, head_radius_m
 from behaviours.settings import Block, LeanTurn, Pelvis, Recoil, Wrap
-from engine.body.skeleton import JOINT_COUNT, Body
+from engine.body.skeleton import ELBOWS, JOINT_COUNT, KNEES, WRISTS, ANKLES, Body
 
 Triple = tuple[float, float, float]
+
+
+class Bones(NamedTuple):
+    """What kernels need of a Body. No more: a whole body costs more to hand on than a limb to solve."""
+
+    offset_m: np.ndarray  # (J, 3)
+    part_joint: np.ndarray  # (P,)
+    part_mass_kg: np.ndarray  # (P,)
+    part_com_m: np.ndarray  # (P, 3)
+    palm_m: tuple[Triple, Triple]  # in the wrists' frames
+    arm_m: tuple[float, float]  # shoulder to wrist, stretched
+    leg_m: tuple[float, float]  # hip to ankle, stretched
+    elbow_rad: tuple[float, float]  # the most they flex
+    knee_rad: tuple[float, float]
+    head_centre_m: Triple  # in the head's frame
+    head_radius_m: float
 
 
 class Start(NamedTuple):
@@ -26,9 +42,6 @@ class Start(NamedTuple):
     heading_rad: float  # yaw of the root at perception: the frame that threats are described in
     low_rad: np.ndarray  # (J, 3) limits, moved out to where the clip itself oversteps them
     high_rad: np.ndarray  # (J, 3)
-    arm_m: tuple[float, float]  # shoulder to wrist, stretched
-    head_centre_m: Triple  # in the head's frame
-    head_radius_m: float
 
 
 class FeetPlan(NamedTuple):
@@ -64,7 +77,7 @@ class Rules(NamedTuple):
 class Task(NamedTuple):
     """All of it."""
 
-    body: Body
+    bones: Bones
     start: Start
     feet: FeetPlan
     threat: PerceivedThreat
@@ -80,6 +93,26 @@ class Posed(NamedTuple):
     orientations: np.ndarray  # (J, 4) world
     palms: np.ndarray  # (2, 3) world
     foot_miss_m: np.ndarray  # (2,) how far each held foot is from where it should stand
+
+
+def bones_of(body: Body) -> Bones:
+    """What kernels need of a body."""
+    palms = [tuple(float(v) for v in palm) for palm in body.palm_m]
+    lengths_m = np.sqrt(np.sum(body.offset_m**2, axis=1))
+    arm, leg = (lengths_m[list(a)] + lengths_m[list(b)] for a, b in ((ELBOWS, WRISTS), (KNEES, ANKLES)))
+    return Bones(
+        body.offset_m,
+        body.part_joint,
+        body.part_mass_kg,
+        body.part_com_m,
+        (palms[0], palms[1]),
+        (float(arm[0]), float(arm[1])),
+        (float(leg[0]), float(leg[1])),
+        (float(-body.limit_low_rad[ELBOWS[0], 1]), float(-body.limit_low_rad[ELBOWS[1], 1])),
+        (float(body.limit_high_rad[KNEES[0], 1]), float(body.limit_high_rad[KNEES[1], 1])),
+        head_centre_m(body),
+        head_radius_m(body),
+    )
 
 
 @njit(cache=True)

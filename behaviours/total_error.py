@@ -56,7 +56,7 @@ def residuals_into(task, reference, variables, controls, posed, residuals):
         residuals[CONTROLS + i] = controls[i] - reference.controls[i]
         residuals[OUTSIDE + i] = value - controls[i]
     apply_rules(task, variables, controls, SOFT_REACH_M, posed)
-    com = centre_of_mass(task.body, posed.positions, posed.orientations)
+    com = centre_of_mass(task.bones, posed.positions, posed.orientations)
     residuals[BALANCE] = com[0] - reference.com_wanted_m[0]
     residuals[BALANCE + 1] = com[1] - reference.com_wanted_m[1]
     for side in range(2):

@@ -1,0 +1,202 @@
+"""What the world knows about characters and threats: every column of state that the systems read and write.
+
+One row a character or a ball. Poses are kept as `root_m` (3,) and `rotations` (21, 4), see `engine.body.skeleton.Pose`.
+"""
+
+from __future__ import annotations
+
+from enum import IntEnum
+
+import numpy as np
+
+from engine.body.skeleton import JOINT_COUNT
+from engine.core.world import Component, column
+from engine.physics.layout import STATE_SIZE
+
+NOBODY = -1
+
+
+class Phase(IntEnum):
+    """The regions of fig. 4.1, by the names that reports use."""
+
+    PLAY = 0
+    STARTLE = 1
+    PROTECT = 2
+    HOLD = 3  # the threat never arrived
+    RESPOND = 4
+    RECOVER_BLEND = 5  # part one: simulation into the sustained pose
+    RECOVER_RETURN = 6  # part two: on to the return pose
+    DOWN = 7  # knocked off the feet: the body stays with the physics
+
+
+class Playback(Component):
+    """The clip that a character plays, and where its path lies in the world."""
+
+    clip = column(dtype=np.int64)  # row of world.assets.clips
+    offset_s = column()  # clip time at tick 0: time = offset + tick / 120
+    place_m = column(2)  # the clip's origin in the world
+    heading_rad = column()  # and the clip's yaw there
+
+
+class Posture(Component):
+    """The pose that is shown now and the one shown a tick ago (drawing runs between them; velocities come from them)."""
+
+    root_m = column(3)
+    rotations = column(JOINT_COUNT, 4)
+    before_root_m = column(3)
+    before_rotations = column(JOINT_COUNT, 4)
+
+
+class Character(Component):
+    """Who this is and what makes them react as they do."""
+
+    body = column(dtype=np.int64)  # row of world.assets.bodies
+    startle = column(dtype=bool)
+    response_s = column()
+    turn_side = column(dtype=np.int64)  # the side last turned to: kept when a threat comes from dead ahead
+
+
+class Reaction(Component):
+    """Where a character is on fig. 4.1."""
+
+    phase = column(dtype=np.int64)
+    since = column(dtype=np.int64)  # the tick at which this phase began
+    perceived = column(dtype=np.int64)  # tick of perception
+    contact = column(dtype=np.int64)  # tick at which contact is expected
+    threat = column(dtype=np.int64)  # handle of the ball perceived, or NOBODY
+    clip_s = column()  # clip time at perception
+    struck = column(dtype=bool)
+
+
+class Blend(Component):
+    """The two still ends of the blend that runs now, and its clock (thesis 4.3)."""
+
+    from_root_m = column(3)
+    from_rotations = column(JOINT_COUNT, 4)
+    to_root_m = column(3)
+    to_rotations = column(JOINT_COUNT, 4)
+    since = column(dtype=np.int64)
+    ticks = column()  # how long it lasts; not whole, since slack stretches it
+    support = column(dtype=np.int64)  # the primary support foot: side 0 or 1
+
+
+class Sustained(Component):
+    """The protective pose in force, and what it was made from."""
+
+    root_m = column(3)
+    rotations = column(JOINT_COUNT, 4)
+    rules_root_m = column(3)
+    rules_rotations = column(JOINT_COUNT, 4)
+    controls = column(7)
+    com_wanted_m = column(2)
+    case = column(dtype=np.int64)
+    held = column(2, dtype=bool)  # the feet that stand in it
+
+
+class Ragdoll(Component):
+    """The physics of a character that was struck: MuJoCo's whole integration state."""
+
+    state = column(STATE_SIZE)
+    active = column(dtype=bool)
+
+
+class Blow(Component):
+    """A blow that is being dealt to a character: an impulse on its way, over the time that the ball presses."""
+
+    ball = column(dtype=np.int64)  # handle, or NOBODY
+    joint = column(dtype=np.int64)
+    place_m = column(3)  # in the joint's frame
+    impulse_Ns = column(3)  # on the body, all of it, world
+    elapsed_s = column()  # since contact
+    lasts_s = column()
+
+
+class Feet(Component):
+    """What each foot is about: it goes with the pose, is held where it stands, or makes one step. Axis 0 is left, right."""
+
+    mode = column(2, dtype=np.int64)  # FootMode
+    ankle_m = column(2, 3)  # held here, or stepping to here
+    turned = column(2, 4)  # the ankle's orientation in the world, likewise
+    from_m = column(2, 3)  # a step begins here
+    from_turned = column(2, 4)
+    lift_m = column(2)
+    since = column(2, dtype=np.int64)
+    ticks = column(2)
+    planted = column(2, dtype=bool)  # flagged: stands, and must not slide
+
+
+class FootMode(IntEnum):
+    FREE = 0
+    HELD = 1
+    STEPPING = 2
+
+
+class Residual(Component):
+    """What is left of the motion before the last seam: offsets to the pose that die away (inertialisation).
+
+    Offsets and their velocities as they were at tick `since`: root (3,), every joint as a rotation vector (21, 3), both
+    ankles' places and turns (2, 3) each.
+    """
+
+    since = column(dtype=np.int64)
+    root = column(2, 3)  # offset, velocity
+    joints = column(2, JOINT_COUNT, 3)
+    ankles = column(2, 2, 3)
+    ankle_turns = column(2, 2, 3)
+
+
+class Flight(Component):
+    """A ball: it flies, spins, bounces on the floor and off people."""
+
+    position_m = column(3)
+    velocity_mps = column(3)
+    spin_radps = column(3)
+    turned = column(4)
+    before_m = column(3)
+    before_turned = column(4)
+    radius_m = column()
+    mass_kg = column()
+    drag_per_m = column()
+    restitution = column()
+    friction = column()
+    contact_s = column()
+
+
+class Threat(Component):
+    """What a ball means to the character that it comes at."""
+
+    at = column(dtype=np.int64)  # handle of the character
+    aim = column(dtype=np.int64)  # row of behaviours.perceived.AIMS
+    contact = column(dtype=np.int64)  # tick at which it is expected to arrive
+    line_m = column(3)  # a point of its line of approach: where its centre is expected to be then
+    tangent = column(3)  # unit, of its path there
+    travel = column(3)  # unit, D: from where it was perceived to its target
+    speed_norm = column()
+    size_norm = column()
+    scripted = column(dtype=bool)
+    noticed = column(dtype=bool)  # it has been perceived
+    taken_up = column(dtype=bool)  # and the character has decided about it
+    spent = column(dtype=bool)  # has struck, or gone past
+
+
+class Script(Component):
+    """A threat of the scenario that has not been launched yet."""
+
+    spec = column(dtype=np.int64)  # row of world.assets.threats
+
+
+COMPONENTS = (
+    Playback,
+    Posture,
+    Character,
+    Reaction,
+    Blend,
+    Sustained,
+    Ragdoll,
+    Blow,
+    Feet,
+    Residual,
+    Flight,
+    Threat,
+    Script,
+)

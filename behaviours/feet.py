@@ -1,0 +1,104 @@
+"""What each foot is about: it goes with the pose, is held where it stands, or makes one step.
+
+A foot that stands is held by leg IK, to the last bit in the same place; one that must move is lifted on an arc, never
+dragged (thesis 3.3, specification A4). The plan lives in the `Feet` columns; these functions read and write one row.
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from numba import njit
+
+from behaviours.blending import FootGoals
+from behaviours.components import FootMode
+from behaviours.timing import arc, ease
+from engine.maths import quaternion, vector
+
+FREE, HELD, STEPPING = int(FootMode.FREE), int(FootMode.HELD), int(FootMode.STEPPING)
+
+
+@njit(cache=True)
+def goals_at(tick, mode, ankle_m, turned, from_m, from_turned, lift_m, since, ticks):
+    """Where both feet are to be at a tick: FootGoals. Arrays are one row of the `Feet` columns, left and right first."""
+    goal_m = np.empty((2, 3))
+    goal_turned = np.empty((2, 4))
+    bound = np.empty(2, np.bool_)
+    for side in range(2):
+        bound[side] = mode[side] != FREE
+        progress = 1.0 if mode[side] != STEPPING else (tick - since[side]) / ticks[side]
+        eased = ease(progress)
+        place = vector.mix(from_m[side], ankle_m[side], eased)
+        q = quaternion.slerp(from_turned[side], turned[side], eased)
+        if progress >= 1.0:
+            place = (ankle_m[side, 0], ankle_m[side, 1], ankle_m[side, 2])
+            q = (turned[side, 0], turned[side, 1], turned[side, 2], turned[side, 3])
+        goal_m[side, 0], goal_m[side, 1], goal_m[side, 2] = place
+        goal_m[side, 2] += lift_m[side] * arc(progress)
+        goal_turned[side, 0], goal_turned[side, 1], goal_turned[side, 2], goal_turned[side, 3] = q
+    return FootGoals(goal_m, goal_turned, bound)
+
+
+def goals_of(feet, row: int, tick: int) -> FootGoals:
+    """The goals of one character's feet at a tick."""
+    return goals_at(
+        tick,
+        feet.mode[row],
+        feet.ankle_m[row],
+        feet.turned[row],
+        feet.from_m[row],
+        feet.from_turned[row],
+        feet.lift_m[row],
+        feet.since[row],
+        feet.ticks[row],
+    )
+
+
+def let_go(feet, row: int, side: int) -> None:
+    """The foot goes with the pose from now on."""
+    feet.mode[row, side] = FREE
+
+
+def hold(feet, row: int, side: int, ankle_m, turned) -> None:
+    """The foot stands here, and stays."""
+    feet.mode[row, side] = HELD
+    for place, value in ((feet.ankle_m, ankle_m), (feet.from_m, ankle_m)):
+        place[row, side] = value
+    for turn, value in ((feet.turned, turned), (feet.from_turned, turned)):
+        turn[row, side] = value
+    feet.lift_m[row, side] = 0.0
+
+
+def step(feet, row: int, side: int, start, end, tick: int, ticks: float, balance) -> None:
+    """One step from where the foot is to a place and turn, lifted by how far it goes. `start`, `end` = (ankle_m, turned)."""
+    feet.mode[row, side] = STEPPING
+    feet.from_m[row, side], feet.from_turned[row, side] = start
+    feet.ankle_m[row, side], feet.turned[row, side] = end
+    feet.since[row, side], feet.ticks[row, side] = tick, ticks
+    far = vector.distance(feet.from_m[row, side], feet.ankle_m[row, side])
+    # full height from the distance at which a foot counts as moved; below that in proportion, so nothing pops
+    feet.lift_m[row, side] = balance.lift_height_m * min(1.0, far / (2.0 * balance.lift_over_m))
+
+
+def hold_or_step(feet, row: int, side: int, start, end, tick: int, ticks: float, balance) -> None:
+    """Holds a foot that is as good as there already; else steps it there. It stands until `tick`, if that is yet to come."""
+    near = vector.distance(start[0], end[0]) < balance.foot_tolerance_m * 10.0
+    if near and quaternion.angle_between(start[1], end[1]) < math.radians(0.5):
+        hold(feet, row, side, start[0], start[1])
+    else:
+        step(feet, row, side, start, end, tick, ticks, balance)
+
+
+def stands(feet, row: int, side: int, tick: int) -> bool:
+    """Whether a foot is on the ground by the plan: held, or its step has not begun."""
+    waiting = feet.mode[row, side] == STEPPING and tick <= feet.since[row, side]
+    return bool(feet.mode[row, side] == HELD or waiting)
+
+
+def land_finished_steps(feet, rows, tick: int) -> None:
+    """Feet whose step is over stand from now on."""
+    for row in rows:
+        for side in range(2):
+            if feet.mode[row, side] == STEPPING and tick - feet.since[row, side] >= feet.ticks[row, side]:
+                hold(feet, row, side, feet.ankle_m[row, side].copy(), feet.turned[row, side].copy())

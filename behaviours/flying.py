@@ -1,0 +1,88 @@
+"""Balls in the air and on the floor: flight by the one ballistic function, spin, and bounces off the ground."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from numba import njit
+
+from behaviours.components import Flight
+from behaviours.timing import TICK_S
+from engine.core.schedule import Stage, system
+from engine.maths import quaternion
+from engine.maths.ballistics import GRAVITY_MPS2, fly
+
+ROLLING = 0.02  # resistance of a ball that rolls on a hard floor, as a share of its weight
+HOLLOW = 2.0 / 3.0  # inertia of a thin shell, in m r^2
+
+
+@njit(cache=True)
+def bounce(velocity, spin, radius_m, restitution, friction):
+    """What is left of velocity and spin after the ground has pushed back: restitution upwards, Coulomb friction along it.
+
+    A thin shell touching with its lowest point; the friction impulse stops the sliding there or is at its limit.
+    """
+    up = -velocity[2]
+    push = (1.0 + restitution) * up  # per unit mass
+    # the point of contact moves with the ball and with its spin: v + w x (0, 0, -r)
+    slide_x = velocity[0] - spin[1] * radius_m
+    slide_y = velocity[1] + spin[0] * radius_m
+    slide = math.hypot(slide_x, slide_y)
+    rub = 0.0 if slide < 1e-9 else min(friction * push, slide / (1.0 + 1.0 / HOLLOW)) / slide
+    kick_x, kick_y = -rub * slide_x, -rub * slide_y
+    turn = 1.0 / (HOLLOW * radius_m)
+    return (
+        (velocity[0] + kick_x, velocity[1] + kick_y, restitution * up),
+        (spin[0] + turn * kick_y, spin[1] - turn * kick_x, spin[2]),
+    )
+
+
+@njit(cache=True)
+def fly_one_tick(position, velocity, spin, turned, radius_m, drag, restitution, friction, dt_s):
+    """A ball one tick on, in place. It lands at the instant its skin meets the ground, not at the end of the tick."""
+    p, v = fly(position, velocity, GRAVITY_MPS2, drag, dt_s)
+    w = (spin[0], spin[1], spin[2])
+    if p[2] < radius_m and v[2] < 0.0:
+        start_z, end_z = position[2], p[2]
+        share = 0.0 if start_z <= radius_m else (start_z - radius_m) / (start_z - end_z)
+        p, v = fly(position, velocity, GRAVITY_MPS2, drag, share * dt_s)
+        left_s = (1.0 - share) * dt_s
+        v, w = bounce(v, w, radius_m, restitution, friction)
+        if v[2] < -GRAVITY_MPS2[2] * dt_s:  # would not leave the ground for a whole tick: it slides, then rolls
+            v, w = bounce((v[0], v[1], GRAVITY_MPS2[2] * left_s), w, radius_m, 0.0, friction)
+            slow = max(0.0, 1.0 + ROLLING * GRAVITY_MPS2[2] * left_s / max(math.hypot(v[0], v[1]), 1e-9))
+            v, w = (v[0] * slow, v[1] * slow, 0.0), (w[0] * slow, w[1] * slow, w[2] * slow)
+            p = (p[0] + v[0] * left_s, p[1] + v[1] * left_s, radius_m)
+        else:
+            p, v = fly((p[0], p[1], radius_m), v, GRAVITY_MPS2, drag, left_s)
+    q = quaternion.from_rotation_vector((w[0] * dt_s, w[1] * dt_s, w[2] * dt_s))
+    q = quaternion.normalise(quaternion.multiply(q, turned))
+    for k in range(3):
+        position[k], velocity[k], spin[k] = p[k], v[k], w[k]
+    for k in range(4):
+        turned[k] = q[k]
+
+
+@njit(cache=True)
+def fly_all(rows, position, velocity, spin, turned, radius_m, drag, restitution, friction, dt_s):
+    """One tick for the balls in these rows of the `Flight` columns."""
+    for row in rows:
+        fly_one_tick(
+            position[row], velocity[row], spin[row], turned[row], radius_m[row], drag[row], restitution[row], friction[row], dt_s
+        )
+
+
+@system(Stage.SENSE, reads=(Flight,), writes=(Flight,))
+def fly_balls(world, tick):
+    """Threats fly (and bounce, and roll)."""
+    rows = world.rows(Flight)
+    if not len(rows):
+        return
+    f = world[Flight]
+    f.before_m[rows] = f.position_m[rows]
+    f.before_turned[rows] = f.turned[rows]
+    fly_all(
+        rows.astype(np.int64), f.position_m, f.velocity_mps, f.spin_radps, f.turned,
+        f.radius_m, f.drag_per_m, f.restitution, f.friction, TICK_S,
+    )  # fmt: skip

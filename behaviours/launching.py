@@ -1,0 +1,180 @@
+"""Launching the threats of a scenario (thesis 3.1): scripted ones flown back from their contact, free ones thrown."""
+
+from __future__ import annotations
+
+import math
+
+from behaviours.approach import Approach, coming_from, plan_approach
+from behaviours.components import Character, Feet, Flight, Playback, Posture, Reaction, Script, Threat
+from behaviours.perceived import AIMS, aim_of, target_centre
+from behaviours.playing import body_of, heading_of, perception_clip_s
+from behaviours.prepare import aim_point, prepare
+from behaviours.protection import look_ahead, perceive
+from behaviours.scenario import ThreatSpec
+from behaviours.seams import shown
+from behaviours.senses import face, facing_dot, first_due
+from behaviours.threats import KINDS, Make, make_threat
+from behaviours.timing import TICK_S, time_to_contact_s, whole_ticks
+from engine.body.kinematics import joints_of
+from engine.core.schedule import Stage, system
+from engine.maths import vector
+from engine.maths.ballistics import GRAVITY_MPS2
+
+AIM_PASSES = 2  # the aim depends on the lean, the lean on the direction of travel, that on the aim: settled in two
+UPRIGHT = (1.0, 0.0, 0.0, 0.0)
+
+
+def make_of(spec: ThreatSpec, speed_mps: float) -> Make:
+    """The body of a scenario's threat."""
+    return make_threat(
+        spec.kind,
+        speed_mps,
+        spec.size,
+        size_means=spec.size_means,
+        radius_m=spec.radius_m,
+        mass_kg=spec.mass_kg,
+        speed_range_mps=spec.speed_range_mps,
+        drag=spec.drag,
+    )
+
+
+def speed_of(spec: ThreatSpec) -> float:
+    """The speed asked for, else the middle of the kind's range."""
+    low, high = spec.speed_range_mps or KINDS[spec.kind].speed_range_mps
+    return 0.5 * (low + high) if spec.speed_mps is None else spec.speed_mps
+
+
+@system(
+    Stage.SENSE,
+    reads=(Script, Posture, Playback, Character, Reaction, Feet, Flight, Threat),
+    writes=(Script, Flight, Threat),
+)
+def launch_threats(world, tick):
+    """Whatever the scenario has due now takes off."""
+    for script_row in world.rows(Script):
+        spec = world.assets.threats[int(world[Script].spec[script_row])]
+        character = world.assets.character_rows[spec.at_character]
+        if spec.free:
+            if tick >= first_due(spec.released_s):
+                throw_free(world, spec, character)
+                world.despawn(world.entity(script_row))
+        elif is_due(world, spec, character, tick):
+            throw_scripted(world, spec, character, tick)
+            world.despawn(world.entity(script_row))
+
+
+def scripted_ttc_s(world, spec: ThreatSpec, row: int) -> float:
+    """How long before its contact a scripted threat is perceived (eq. 4.1, from its velocity at contact)."""
+    if spec.ttc_s is not None:
+        return spec.ttc_s
+    make = make_of(spec, speed_of(spec))
+    towards = coming_from(heading_of(world, row), math.radians(spec.azimuth_deg), math.radians(spec.elevation_deg))
+    return time_to_contact_s(make.speed_norm, facing_dot(world, row, towards), world.assets.settings.timing)
+
+
+def is_due(world, spec: ThreatSpec, row: int, tick: int) -> bool:
+    """Whether a scripted threat is perceived now."""
+    if spec.contact_s is not None:
+        return tick + whole_ticks(scripted_ttc_s(world, spec, row)) >= first_due(spec.contact_s)
+    return tick >= first_due(1.0 if spec.perceived_s is None else spec.perceived_s)
+
+
+def throw_scripted(world, spec: ThreatSpec, row: int, tick: int) -> None:
+    """Puts a scripted threat where it has to be now to arrive as its script says; the character perceives it at once."""
+    make = make_of(spec, speed_of(spec))
+    way = aimed_approach(world, spec, make, row)
+    entity = world.spawn(
+        ball(spec.kind, make, way.start_m, way.start_mps, spec.spin_radps),
+        Threat(at=world.entity(row), speed_norm=make.speed_norm, size_norm=make.size_norm, scripted=True),
+    )
+    face(world, world.row(entity), str(spec.target), way.contact_m, way.contact_mps, tick, way.ttc_s)
+    world.emit(
+        "launched",
+        entity,
+        at=world.entity(row),
+        target=str(spec.target),
+        ttc_s=way.ttc_s,
+        elevation_raised_deg=way.raised_deg,
+        ttc_shortened_s=way.shortened_s,
+    )
+
+
+def aimed_approach(world, spec: ThreatSpec, make: Make, row: int) -> Approach:
+    """The flight that meets the target's centre as it will be in the rules pose, before block (A1)."""
+    settings, body, now = world.assets.settings, body_of(world, row), shown(world, row)[0]
+    ttc_s = whole_ticks(scripted_ttc_s(world, spec, row)) * TICK_S
+    clip_s = perception_clip_s(world, row, world.tick)
+    ahead, planted, landing = look_ahead(world, row, clip_s, ttc_s)
+    joint, offset = aim_of(body, str(spec.target))
+    aim = target_centre(joint, offset, *joints_of(body, now))
+    for _ in range(AIM_PASSES + 1):
+        way = plan_approach(
+            aim,
+            heading_of(world, row),
+            math.radians(spec.azimuth_deg),
+            math.radians(spec.elevation_deg),
+            speed_of(spec),
+            ttc_s,
+            radius_m=make.radius_m,
+            drag=make.drag_per_m,
+            low_path=settings.threats.low_path,
+        )
+        travel = vector.unit(vector.subtract(way.contact_m, way.start_m), (-1.0, 0.0, 0.0))
+        tangent = vector.unit(way.contact_mps, travel)
+        threat = perceive(
+            body, now, str(spec.target), aim, tangent, travel, make.speed_norm, make.size_norm, make.radius_m
+        )
+        side = float(world[Character].turn_side[row])
+        aim = aim_point(prepare(body, now, ahead, planted, threat, settings, side, landing))
+    return way
+
+
+def ball(kind: str, make: Make, position_m, velocity_mps, spin_radps=(0.0, 0.0, 0.0)) -> Flight:
+    """A ball of a kind, about to fly."""
+    of = KINDS[kind]
+    return Flight(
+        position_m=position_m,
+        velocity_mps=velocity_mps,
+        spin_radps=spin_radps,
+        turned=UPRIGHT,
+        before_m=position_m,
+        before_turned=UPRIGHT,
+        radius_m=make.radius_m,
+        mass_kg=make.mass_kg,
+        drag_per_m=make.drag_per_m,
+        restitution=of.restitution,
+        friction=of.friction,
+        contact_s=of.contact_s,
+    )
+
+
+def throw_free(world, spec: ThreatSpec, row: int) -> None:
+    """Throws a free threat from where the scenario says, with its velocity or straight at its target."""
+    velocity = spec.velocity_mps
+    if velocity is None:
+        velocity = velocity_towards(spec.position_m, place_of(world, spec.target, row), speed_of(spec))
+    throw(world, row, spec.kind, make_of(spec, vector.length(velocity)), spec.position_m, velocity, spec.spin_radps)
+
+
+def place_of(world, target, row: int):
+    """Where a target is now: a point as it is, or a part of the character by name. World metres."""
+    if not isinstance(target, str):
+        return target
+    body = body_of(world, row)
+    joint, offset = aim_of(body, target)
+    return target_centre(joint, offset, *joints_of(body, shown(world, row)[0]))
+
+
+def velocity_towards(position_m, place_m, speed_mps: float) -> tuple[float, float, float]:
+    """The velocity, about this fast, that brings a ball from one place to another under gravity, without drag."""
+    way = vector.subtract(place_m, position_m)
+    flight_s = max(vector.length(way) / speed_mps, 1e-3)
+    return vector.subtract(vector.scale(way, 1.0 / flight_s), vector.scale(GRAVITY_MPS2, 0.5 * flight_s))
+
+
+def throw(world, row: int, kind: str, make: Make, position_m, velocity_mps, spin_radps=(0.0, 0.0, 0.0)) -> int:
+    """A ball thrown by anyone at a character, who may see it coming; it may miss. Its handle."""
+    return world.spawn(
+        ball(kind, make, position_m, velocity_mps, spin_radps),
+        Threat(at=world.entity(row), speed_norm=make.speed_norm, size_norm=make.size_norm),
+    )

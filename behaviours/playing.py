@@ -1,0 +1,56 @@
+"""Playing a clip: which pose it has at a time, put where the character's path lies in the world."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from behaviours.components import Character, Phase, Playback, Posture, Reaction
+from behaviours.placing import placed
+from behaviours.timing import TICK_S
+from engine.body.skeleton import PELVIS, Body, Pose
+from engine.clips.clip import Clip
+from engine.clips.playback import planted_at, sample
+from engine.maths import quaternion
+
+
+def body_of(world, row: int) -> Body:
+    """The body of the character in a row."""
+    return world.assets.bodies[int(world[Character].body[row])]
+
+
+def clip_of(world, row: int) -> Clip:
+    """The clip that the character in a row plays."""
+    return world.assets.clips[int(world[Playback].clip[row])]
+
+
+def clip_time_s(world, row: int, tick: int) -> float:
+    """Where in its clip a character is at a tick, if it plays on."""
+    return float(world[Playback].offset_s[row]) + tick * TICK_S
+
+
+def clip_pose(world, row: int, time_s: float) -> Pose:
+    """The clip's pose at a clip time, in the world."""
+    p = world[Playback]
+    return placed(sample(clip_of(world, row), max(0.0, time_s)), p.place_m[row], float(p.heading_rad[row]))
+
+
+def planted_in_clip(world, row: int, time_s: float) -> np.ndarray:
+    """(2,) which feet stand in the clip at a clip time."""
+    return planted_at(clip_of(world, row), max(0.0, time_s))
+
+
+def play_from(world, row: int, tick: int, time_s: float) -> None:
+    """Plays on so that the clip is at this time at that tick."""
+    world[Playback].offset_s[row] = time_s - tick * TICK_S
+
+
+def perception_clip_s(world, row: int, tick: int) -> float:
+    """The clip time that a reaction starts from: the present one, or the one that an interrupted reaction set out from."""
+    if world[Reaction].phase[row] == Phase.PLAY:
+        return clip_time_s(world, row, tick)
+    return float(world[Reaction].clip_s[row])
+
+
+def heading_of(world, row: int) -> float:
+    """The yaw of the pose that is shown: the frame in which a scripted threat's direction is given."""
+    return float(quaternion.heading(world[Posture].rotations[row, PELVIS]))

@@ -1,0 +1,93 @@
+"""From a threat in the world to the sustained pose of the character it comes at (thesis 3): what the pose is computed from."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from behaviours.components import Character, Flight, Reaction, Sustained, Threat
+from behaviours.perceived import AIMS, PerceivedThreat, aim_of, target_weights
+from behaviours.playing import body_of, clip_pose, planted_in_clip
+from behaviours.seams import shown
+from behaviours.sustained import Protection, protect
+from behaviours.threats import KINDS
+from behaviours.timing import TICK_S
+from engine.body.kinematics import joints_of
+from engine.body.skeleton import Body, Pose
+
+
+def perceive(
+    body: Body, pose: Pose, aim: str, line_m, tangent, travel, speed_norm: float, size_norm: float, radius_m: float
+) -> PerceivedThreat:
+    """A threat as the rules take it. `pose` says how head and pelvis share the defence (3.4)."""
+    joint, offset = aim_of(body, aim)
+    head, pelvis = 1.0, 0.0
+    if aim == "pelvis":
+        head, pelvis = 0.0, 1.0
+    elif aim != "head":
+        head, pelvis = target_weights(body, line_m, *joints_of(body, pose))
+    excess_m = max(0.0, radius_m - KINDS["volleyball"].radius_m)
+    return PerceivedThreat(
+        _triple(travel), _triple(tangent), _triple(line_m), joint, offset,
+        float(speed_norm), float(size_norm), excess_m, float(head), float(pelvis),
+    )  # fmt: skip
+
+
+def _triple(v) -> tuple[float, float, float]:
+    return (float(v[0]), float(v[1]), float(v[2]))
+
+
+def perceived_threat(world, row: int, threat_row: int) -> PerceivedThreat:
+    """The threat in a row of the world, as the character in another sees it."""
+    t = world[Threat]
+    return perceive(
+        body_of(world, row),
+        shown(world, row)[0],
+        AIMS[t.aim[threat_row]],
+        t.line_m[threat_row],
+        t.tangent[threat_row],
+        t.travel[threat_row],
+        t.speed_norm[threat_row],
+        t.size_norm[threat_row],
+        world[Flight].radius_m[threat_row],
+    )
+
+
+def look_ahead(world, row: int, clip_s: float, ttc_s: float) -> tuple[Pose, np.ndarray, bool]:
+    """The clip's pose that pelvis and lifted foot come from, which feet stand, and whether that is the clip's next landing (A4).
+
+    With a foot on the ground: the clip 1/6 s on. In flight: the landing, if it comes within the time to contact.
+    """
+    ahead_s = world.assets.settings.timing.sustained_ahead_s
+    planted = planted_in_clip(world, row, clip_s)
+    if not planted.any():
+        for k in range(1, int(ttc_s / TICK_S)):
+            landing_s = clip_s + k * TICK_S
+            there = planted_in_clip(world, row, landing_s)
+            if there.any():
+                return clip_pose(world, row, landing_s), there, True
+    return clip_pose(world, row, clip_s + ahead_s), planted, False
+
+
+def protection_against(world, row: int, threat: PerceivedThreat, clip_s: float, ttc_s: float) -> Protection:
+    """The protective pose of a character as it is now."""
+    ahead, planted, landing = look_ahead(world, row, clip_s, ttc_s)
+    side = float(world[Character].turn_side[row])
+    return protect(
+        body_of(world, row), shown(world, row)[0], ahead, planted, threat, world.assets.settings, side, landing
+    )
+
+
+def protect_from(world, row: int, threat: PerceivedThreat) -> Protection:
+    """Works out the sustained pose and keeps it in the character's row."""
+    r = world[Reaction]
+    ttc_s = float(r.contact[row] - r.perceived[row]) * TICK_S
+    found = protection_against(world, row, threat, float(r.clip_s[row]), ttc_s)
+    s = world[Sustained]
+    s.root_m[row], s.rotations[row] = found.sustained
+    s.rules_root_m[row], s.rules_rotations[row] = found.rules
+    s.controls[row] = found.controls
+    s.com_wanted_m[row] = found.com_wanted_m
+    s.case[row] = int(found.case)
+    s.held[row] = found.feet.held
+    world[Character].turn_side[row] = int(np.sign(found.choices.turn_side))
+    return found

@@ -1,0 +1,198 @@
+"""The reaction as a state machine that reads like fig. 4.1 of the thesis.
+
+    play -> (startle) -> protect -> respond -> recover_blend -> recover_return -> play
+                            |          `-> down (knocked off the feet)
+                            `-> hold (nothing came) -> recover_return
+
+`begin_*` enters a phase: it sets what the phase's source of poses needs (`behaviours.sources`), plans the feet, and keeps
+what is left of the old motion (`behaviours.seams`). The systems below say when.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from behaviours import feet as foot_plan
+from behaviours import seams
+from behaviours.blending import primary_support
+from behaviours.components import (
+    NOBODY,
+    Blend,
+    Character,
+    Feet,
+    Flight,
+    Phase,
+    Playback,
+    Posture,
+    Ragdoll,
+    Reaction,
+    Residual,
+    Sustained,
+    Threat,
+)
+from behaviours.playing import body_of, clip_pose, perception_clip_s, planted_in_clip
+from behaviours.protection import perceived_threat, protect_from
+from behaviours.recovery import begin_recovery, begin_return, has_fallen, resume_clip
+from behaviours.rules.startle import startle_pose
+from behaviours.sources import foot_goals, source_pose
+from behaviours.timing import TICK_S, whole_ticks
+from engine.body.kinematics import com_of, joints_of
+from engine.body.skeleton import ANKLES, Pose
+from engine.core.schedule import Stage, system
+
+BUSY = (Phase.STARTLE, Phase.PROTECT, Phase.RESPOND, Phase.RECOVER_BLEND, Phase.DOWN)
+STATE = (
+    Blend, Character, Feet, Flight, Playback, Posture, Ragdoll, Reaction, Residual, Sustained, Threat,
+)  # fmt: skip
+STEP_SHARE = 0.75  # of the time to contact: a foot stands before the blow comes
+
+
+def enter(world, row: int, tick: int, phase: Phase) -> None:
+    """Begins a phase now, and says so."""
+    world[Reaction].phase[row] = phase
+    world[Reaction].since[row] = tick
+    world.emit("phase", world.entity(row), name=phase.name.lower())
+
+
+def keep_continuous(world, row: int, tick: int) -> None:
+    """Measures the seam between what was shown and what the new phase shows; call it when the phase is all set up."""
+    source, before = source_pose(world, row, tick - 1), source_pose(world, row, tick - 2)
+    goals, goals_before = foot_goals(world, row, tick - 1, source), foot_goals(world, row, tick - 2, before)
+    seams.begin_seam(world, row, tick, body_of(world, row), source, before, goals, goals_before)
+
+
+def begin_blend(world, row: int, tick: int, start: Pose, end: Pose, ticks: float) -> None:
+    """Sets the two ends of a blend that left its first end at the last tick."""
+    b, f = world[Blend], world[Feet]
+    b.from_root_m[row], b.from_rotations[row] = start
+    b.to_root_m[row], b.to_rotations[row] = end
+    b.since[row], b.ticks[row] = tick - 1, ticks
+    body = body_of(world, row)
+    positions, _ = joints_of(body, start)
+    b.support[row] = primary_support(f.planted[row], positions[list(ANKLES)], com_of(body, start))
+
+
+def begin_startle(world, row: int, tick: int, threat_row: int) -> None:
+    """The reflex (3.2.6): a fifth of the way to a recoil, the head towards the threat, the standing feet where they are."""
+    settings = world.assets.settings
+    now, _ = seams.shown(world, row)
+    ahead_s = world[Reaction].clip_s[row] + settings.timing.startle_ahead_s
+    ahead = clip_pose(world, row, ahead_s)
+    toward = -world[Threat].travel[threat_row]
+    startled = startle_pose(body_of(world, row), now, ahead, toward, settings)
+    plant_standing_feet(world, row, tick)
+    begin_blend(world, row, tick, now, startled, float(whole_ticks(settings.timing.startle_s)))
+    enter(world, row, tick, Phase.STARTLE)
+    keep_continuous(world, row, tick)
+
+
+def plant_standing_feet(world, row: int, tick: int) -> None:
+    """The feet that stand in the clip are held where they are shown; the others go with the pose."""
+    f, body = world[Feet], body_of(world, row)
+    positions, orientations = joints_of(body, seams.shown(world, row)[0])
+    standing = planted_in_clip(world, row, world[Reaction].clip_s[row])
+    for side, ankle in enumerate(ANKLES):
+        if standing[side]:
+            foot_plan.hold(f, row, side, positions[ankle], orientations[ankle])
+        else:
+            foot_plan.let_go(f, row, side)
+
+
+def begin_protecting(world, row: int, tick: int) -> None:
+    """The blend to the sustained pose, stretched by the slack so that it is never reached early (4.2)."""
+    settings, s, r = world.assets.settings, world[Sustained], world[Reaction]
+    now, _ = seams.shown(world, row)
+    sustained = Pose(s.root_m[row].copy(), s.rotations[row].copy())
+    left = max(1, r.contact[row] - tick + 1)
+    plan_steps(world, row, tick, sustained, STEP_SHARE * left)
+    begin_blend(world, row, tick, now, sustained, left * (1.0 + settings.timing.slack_share))
+    enter(world, row, tick, Phase.PROTECT)
+    keep_continuous(world, row, tick)
+
+
+def plan_steps(world, row: int, tick: int, to: Pose, ticks: float) -> None:
+    """Each foot is held where it is, or steps to where the pose has it."""
+    body, f = body_of(world, row), world[Feet]
+    now_m, now_turned = joints_of(body, seams.shown(world, row)[0])
+    end_m, end_turned = joints_of(body, to)
+    for side, ankle in enumerate(ANKLES):
+        start, end = (now_m[ankle], now_turned[ankle]), (end_m[ankle], end_turned[ankle])
+        if not world[Sustained].held[row, side]:
+            foot_plan.let_go(f, row, side)
+        else:
+            foot_plan.hold_or_step(f, row, side, start, end, tick - 1, ticks, world.assets.settings.balance)
+
+
+@system(Stage.DECIDE, reads=STATE, writes=STATE)
+def notice(world, tick):
+    """Whoever perceives a threat now works out the pose to meet it in, and startles or begins to protect (3, 4.2)."""
+    threats, r, c = world[Threat], world[Reaction], world[Character]
+    settings = world.assets.settings
+    for threat_row in world.rows(Threat, Flight):
+        if not threats.noticed[threat_row] or threats.taken_up[threat_row]:
+            continue
+        threats.taken_up[threat_row] = True
+        row = world.row(int(threats.at[threat_row]))
+        if r.phase[row] in BUSY:
+            continue
+        r.perceived[row], r.contact[row] = tick, threats.contact[threat_row]
+        r.threat[row] = world.entity(threat_row)
+        r.struck[row] = False
+        r.clip_s[row] = perception_clip_s(world, row, tick)
+        ttc_s = (r.contact[row] - tick) * TICK_S
+        left_s = ttc_s - settings.timing.startle_s
+        startle = bool(c.startle[row]) and left_s >= settings.startle.least_sustained_s
+        protect_from(world, row, perceived_threat(world, row, threat_row))
+        world.emit(
+            "perceived",
+            world.entity(row),
+            threat=int(r.threat[row]),
+            ttc_s=ttc_s,
+            startle="taken" if startle else ("too late" if c.startle[row] else "off"),
+            case=int(world[Sustained].case[row]),
+        )
+        if startle:
+            begin_startle(world, row, tick, threat_row)
+        else:
+            begin_protecting(world, row, tick)
+
+
+@system(Stage.DECIDE, reads=STATE, writes=STATE)
+def advance_reactions(world, tick):
+    """Each phase gives way to the next when its time is up (fig. 4.1)."""
+    r, settings = world[Reaction], world.assets.settings
+    for row in world.rows(Reaction, Posture):
+        phase, lasted = Phase(int(r.phase[row])), tick - r.since[row]
+        if phase == Phase.STARTLE and lasted >= whole_ticks(settings.timing.startle_s):
+            begin_protecting(world, row, tick)
+        elif phase == Phase.PROTECT and tick > r.contact[row] + MISS_TICKS:
+            world.emit("missed", world.entity(row), threat=int(r.threat[row]))
+            enter(world, row, tick, Phase.HOLD)
+        elif phase == Phase.HOLD and lasted >= whole_ticks(settings.recovery.hold_s):
+            begin_return(world, row, tick)
+            enter(world, row, tick, Phase.RECOVER_RETURN)
+            keep_continuous(world, row, tick)
+        elif phase == Phase.RESPOND and lasted >= whole_ticks(world[Character].response_s[row]):
+            end_response(world, row, tick)
+        elif phase == Phase.RECOVER_BLEND and lasted >= whole_ticks(settings.recovery.part_one_s):
+            world[Ragdoll].active[row] = False
+            enter(world, row, tick, Phase.RECOVER_RETURN)
+        elif phase == Phase.RECOVER_RETURN and tick - 1 >= world[Blend].since[row] + world[Blend].ticks[row]:
+            resume_clip(world, row, tick)
+            enter(world, row, tick, Phase.PLAY)
+            keep_continuous(world, row, tick)
+            r.threat[row] = NOBODY
+
+
+MISS_TICKS = 6  # after the promised contact, before a threat that touched nothing counts as gone
+
+
+def end_response(world, row: int, tick: int) -> None:
+    """Back to control, or down if the feet can no longer get under the body."""
+    if has_fallen(world, row):
+        enter(world, row, tick, Phase.DOWN)
+        return
+    begin_recovery(world, row, tick)
+    enter(world, row, tick, Phase.RECOVER_BLEND)
+    keep_continuous(world, row, tick)
+    seams.forget_velocity(world, row)

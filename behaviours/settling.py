@@ -1,0 +1,110 @@
+"""What is shown: the source of the present phase, what is left of the last seam on top, the feet where they have to be."""
+
+from __future__ import annotations
+
+import numpy as np
+from numba import njit
+
+from behaviours import feet as foot_plan
+from behaviours import seams
+from behaviours.blending import drop_to_reach
+from behaviours.components import Blend, Character, Feet, Phase, Playback, Posture, Ragdoll, Reaction, Residual
+from behaviours.inertialise import add_remaining, remaining, turned_by
+from behaviours.playing import body_of, clip_time_s, planted_in_clip
+from behaviours.sources import foot_goals, source_pose
+from engine.body.kinematics import joints_into
+from engine.body.limb_ik import apply_leg, leg_swivel
+from engine.body.skeleton import HIPS, JOINT_COUNT
+from engine.core.schedule import Stage, system
+
+
+@njit(cache=True)
+def goals_with_residual(ankle_m, turned, ankles, ankle_turns, elapsed_s, half_life_s):
+    """Moves both feet's goals by what is left of the last seam, in place: (2, 3), (2, 4), offsets (2, 2, 3)."""
+    for side in range(2):
+        r = remaining(ankles[0, side], ankles[1, side], elapsed_s, half_life_s)
+        q = turned_by(turned[side], remaining(ankle_turns[0, side], ankle_turns[1, side], elapsed_s, half_life_s))
+        for k in range(3):
+            ankle_m[side, k] += r[k]
+        for k in range(4):
+            turned[side, k] = q[k]
+
+
+@njit(cache=True)
+def drops(body, root_m, rotations, ankle_m):
+    """How far the pelvis would have to sink for each foot to be in reach: (left, right), metres."""
+    positions = np.empty((JOINT_COUNT, 3))
+    joints_into(body.offset_m, root_m, rotations, positions, np.empty((JOINT_COUNT, 4)))
+    return (
+        drop_to_reach(body, positions[HIPS[0]], ankle_m[0], 0),
+        drop_to_reach(body, positions[HIPS[1]], ankle_m[1], 1),
+    )
+
+
+@njit(cache=True)
+def stand_on(body, root_m, rotations, ankle_m, turned, source_drops):
+    """Leg IK of both legs onto ankle goals (2, 3), (2, 4), in place. The knees stay where the least swing leaves them.
+
+    The pelvis sinks by what the residual has put out of reach beyond `source_drops`, the source's own: a residual that
+    is nothing changes nothing.
+    """
+    positions = np.empty((JOINT_COUNT, 3))
+    orientations = np.empty((JOINT_COUNT, 4))
+    joints_into(body.offset_m, root_m, rotations, positions, orientations)
+    drop = 0.0
+    for side in range(2):
+        drop = max(drop, drop_to_reach(body, positions[HIPS[side]], ankle_m[side], side) - source_drops[side])
+    root_m[2] -= drop
+    for j in range(JOINT_COUNT):
+        positions[j, 2] -= drop
+    for side in range(2):
+        swivel = leg_swivel(positions, orientations, side)
+        apply_leg(body, rotations, positions, orientations, side, ankle_m[side], turned[side], swivel, 0.0)
+
+
+@system(
+    Stage.SETTLE,
+    reads=(Playback, Posture, Character, Reaction, Blend, Ragdoll, Feet, Residual),
+    writes=(Posture, Feet),
+)
+def settle_poses(world, tick):
+    """Every character's pose of this tick."""
+    p = world[Posture]
+    rows = world.rows(Posture, Reaction)
+    foot_plan.land_finished_steps(world[Feet], rows, tick)
+    for row in rows:
+        root_m, rotations = settled_pose(world, int(row), tick)
+        p.before_root_m[row], p.before_rotations[row] = p.root_m[row], p.rotations[row]
+        p.root_m[row], p.rotations[row] = root_m, rotations
+        world[Feet].planted[row] = standing_feet(world, int(row), tick)
+
+
+def settled_pose(world, row: int, tick: int) -> tuple[np.ndarray, np.ndarray]:
+    """(3,) and (J, 4): the pose to show."""
+    r, half_life_s = world[Residual], world.assets.settings.blend.seam_half_life_s
+    source = source_pose(world, row, tick)
+    phase = world[Reaction].phase[row]
+    calm = seams.is_over(world, row, tick, half_life_s)
+    if calm and phase in (Phase.PLAY, Phase.RESPOND, Phase.DOWN):
+        return source.root_m, source.rotations
+    goals = foot_goals(world, row, tick, source)
+    elapsed_s, body = seams.elapsed_s(world, row, tick), body_of(world, row)
+    own = drops(body, source.root_m, source.rotations, goals.ankle_m)
+    add_remaining(source.root_m, source.rotations, r.root[row], r.joints[row], elapsed_s, half_life_s)
+    goals_with_residual(goals.ankle_m, goals.turned, r.ankles[row], r.ankle_turns[row], elapsed_s, half_life_s)
+    stand_on(body, source.root_m, source.rotations, goals.ankle_m, goals.turned, own)
+    return source.root_m, source.rotations
+
+
+def standing_feet(world, row: int, tick: int) -> list[bool]:
+    """Left, right: which feet stand now and may not slide."""
+    phase = world[Reaction].phase[row]
+    if phase == Phase.PLAY:
+        return list(planted_in_clip(world, row, clip_time_s(world, row, tick)))
+    if phase in (Phase.RESPOND, Phase.DOWN):
+        return [False, False]
+    half_life_s = world.assets.settings.blend.seam_half_life_s
+    return [
+        foot_plan.stands(world[Feet], row, side, tick) and seams.foot_is_still(world, row, side, tick, half_life_s)
+        for side in range(2)
+    ]

@@ -1,0 +1,164 @@
+"""A scenario, running: the world it is played in, the systems of a tick in their order, and the commands that come from outside."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from behaviours.components import (
+    COMPONENTS,
+    NOBODY,
+    Blend,
+    Blow,
+    Character,
+    Feet,
+    Playback,
+    Posture,
+    Ragdoll,
+    Reaction,
+    Residual,
+    Script,
+    Sustained,
+)
+from behaviours.flying import fly_balls
+from behaviours.launching import launch_threats, throw
+from behaviours.placing import placed
+from behaviours.reaction import advance_reactions, notice
+from behaviours.response import meet_balls, step_bodies
+from behaviours.scenario import CharacterSpec, Scenario, ThreatSpec
+from behaviours.senses import watch_free_threats
+from behaviours.settings import Settings, override
+from behaviours.settling import settle_poses
+from behaviours.threats import make_threat
+from behaviours.timing import TICK_S
+from engine.body.skeleton import Body
+from engine.clips.clip import Clip
+from engine.clips.mirror import mirror_clip
+from engine.clips.playback import sample
+from engine.core.errors import BadInput
+from engine.core.journal import Command
+from engine.core.schedule import Schedule
+from engine.core.world import World
+from engine.physics.model import RagdollModel, model_for
+
+# one tick, the way the data flows; the schedule sorts by stage and keeps this order within one
+SYSTEMS = (
+    fly_balls,
+    launch_threats,
+    watch_free_threats,
+    advance_reactions,
+    notice,
+    step_bodies,
+    settle_poses,
+    meet_balls,
+)
+
+FindClip = Callable[[CharacterSpec], Clip]
+
+
+@dataclass(frozen=True)
+class Assets:
+    """What never changes in a run: shared by all ticks, no part of the state."""
+
+    settings: Settings
+    clips: tuple[Clip, ...]
+    bodies: tuple[Body, ...]
+    models: tuple[RagdollModel, ...]
+    threats: tuple[ThreatSpec, ...]
+    character_rows: tuple[int, ...]
+
+
+def build_world(scenario: Scenario, find: FindClip) -> World:
+    """The world of a scenario at tick 0. `find` brings a character's clip (it may raise BadInput)."""
+    clips = tuple(_clip_of(spec, find) for spec in scenario.character)
+    bodies = tuple(clip.body for clip in clips)
+    rows = tuple(range(len(clips)))
+    settings = override(Settings(), flat_settings(scenario.settings))
+    models = tuple(model_for(body) for body in bodies)
+    assets = Assets(settings, clips, bodies, models, scenario.threat, rows)
+    world = World(COMPONENTS, scenario.seed, assets)
+    for row, spec in zip(rows, scenario.character, strict=True):
+        _spawn_character(world, row, spec)
+    for k in range(len(scenario.threat)):
+        world.spawn(Script(spec=k))
+    return world
+
+
+def _clip_of(spec: CharacterSpec, find: FindClip) -> Clip:
+    clip = find(spec)
+    return mirror_clip(clip) if spec.mirrored else clip
+
+
+def flat_settings(nested: dict[str, Any]) -> dict[str, Any]:
+    """{"block": {"offset_m": 0.1}} -> {"block.offset_m": 0.1}. BadInput where a group holds no keys."""
+    flat = {}
+    for group, values in nested.items():
+        if not isinstance(values, dict):
+            raise BadInput("scenario", f"settings.{group} must be a table of constants, found {values!r}")
+        flat |= {f"{group}.{name}": value for name, value in values.items()}
+    return flat
+
+
+def _spawn_character(world: World, row: int, spec: CharacterSpec) -> None:
+    """One character standing in its clip at the start time."""
+    clip = world.assets.clips[row]
+    if spec.start_s > clip.duration_s and not clip.loops:
+        raise BadInput("scenario", f"character.{row}.start_s is {spec.start_s}; the clip {clip.name!r} lasts {clip.duration_s:.2f} s")
+    heading = math.radians(spec.heading_deg)
+    # the character, not the clip's first frame, stands at the place asked for
+    start = placed(sample(clip, spec.start_s), (0.0, 0.0), heading)
+    place = np.array(spec.position_m) - start.root_m[:2]
+    pose, before = (placed(sample(clip, max(0.0, spec.start_s - s)), place, heading) for s in (0.0, TICK_S))
+    entity = world.spawn(
+        Playback(clip=row, offset_s=spec.start_s + TICK_S, place_m=place, heading_rad=heading),
+        Posture(
+            root_m=pose.root_m, rotations=pose.rotations, before_root_m=before.root_m, before_rotations=before.rotations
+        ),
+        Character(body=row, startle=spec.startle, response_s=spec.response_s),
+        Reaction(threat=NOBODY),
+        Blend(ticks=1.0),
+        Sustained(root_m=pose.root_m, rotations=pose.rotations),
+        Ragdoll(),
+        Blow(ball=NOBODY),
+        Feet(ticks=(1.0, 1.0)),
+        Residual(since=-1000),
+    )
+    assert world.row(entity) == row  # characters come first: their rows are those of the assets
+
+
+def apply_command(world: World, command: Command) -> None:
+    """What comes in from outside, as data: {"do": "throw", position_m, velocity_mps, kind, size, at, ...}. BadInput otherwise."""
+    if command.get("do") != "throw":
+        raise BadInput("command", f"unknown command {command.get('do')!r}; expected 'throw'")
+    velocity = tuple(command["velocity_mps"])
+    kind = command.get("kind", "volleyball")
+    given = {key: command[key] for key in ("radius_m", "mass_kg", "size_means", "drag") if key in command}
+    make = make_threat(kind, math.dist(velocity, (0.0, 0.0, 0.0)), command.get("size", 0.5), **given)
+    at = world.assets.character_rows[command.get("at", 0)]
+    throw(world, at, kind, make, tuple(command["position_m"]), velocity, tuple(command.get("spin_radps", (0.0, 0.0, 0.0))))
+
+
+class Simulation:
+    """A world and its schedule, to be stepped."""
+
+    def __init__(self, scenario: Scenario, find: FindClip, checked: bool = False):
+        self.scenario = scenario
+        self.world = build_world(scenario, find)
+        self.schedule = Schedule(SYSTEMS, checked=checked)
+
+    @property
+    def ticks(self) -> int:
+        """How many ticks the scenario lasts."""
+        return round(self.scenario.duration_s / TICK_S)
+
+    def step(self) -> None:
+        """One tick."""
+        self.schedule.tick(self.world)
+
+    def command(self, command: Command) -> None:
+        """Something from outside, before the next tick."""
+        apply_command(self.world, command)

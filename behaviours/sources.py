@@ -1,0 +1,77 @@
+"""Where a character's pose comes from in each phase, before continuity and footing (`behaviours.settle`) have their say.
+
+One function a source; `source_pose` picks by phase. All are pure in the tick, so a seam can ask a new source where it was.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from behaviours.blending import FootGoals, blend_end, blend_into
+from behaviours.components import Blend, Character, Feet, Phase, Ragdoll, Reaction
+from behaviours.feet import goals_of
+from behaviours.playing import body_of, clip_pose, clip_time_s
+from behaviours.timing import ease, whole_ticks
+from engine.body.kinematics import joints_of
+from engine.body.skeleton import ANKLES, JOINT_COUNT, Pose
+from engine.physics import ragdoll
+
+ANKLE_ROWS = list(ANKLES)
+
+
+def source_pose(world, row: int, tick: int) -> Pose:
+    """The pose that the present phase asks for at a tick. World; a copy."""
+    phase = world[Reaction].phase[row]
+    if phase == Phase.PLAY:
+        return clip_pose(world, row, clip_time_s(world, row, tick))
+    if phase in (Phase.RESPOND, Phase.DOWN):
+        return simulated_pose(world, row)
+    if phase == Phase.RECOVER_BLEND:
+        return simulation_into_sustained(world, row, tick)
+    return blended_pose(world, row, tick)
+
+
+def simulated_pose(world, row: int) -> Pose:
+    """The physics' pose as it is now."""
+    model = world.assets.models[world[Character].body[row]]
+    return ragdoll.read(model, world[Ragdoll].state[row])[0]
+
+
+def blended_pose(world, row: int, tick: int) -> Pose:
+    """Between the two still ends of the present blend, at its clock (thesis 4.3)."""
+    b = world[Blend]
+    body = body_of(world, row)
+    start = blend_end(body, b.from_root_m[row].copy(), b.from_rotations[row].copy())
+    end = blend_end(body, b.to_root_m[row].copy(), b.to_rotations[row].copy())
+    weight = ease((tick - b.since[row]) / b.ticks[row])
+    return _between(world, row, tick, body, start, end, weight)
+
+
+def simulation_into_sustained(world, row: int, tick: int) -> Pose:
+    """Recovery, part one: from the running simulation into the sequence of the return blend (thesis 4.1.3)."""
+    body = body_of(world, row)
+    simulated, returning = simulated_pose(world, row), blended_pose(world, row, tick)
+    part_one = whole_ticks(world.assets.settings.recovery.part_one_s)
+    weight = ease((tick - world[Reaction].since[row] + 1) / part_one)
+    start = blend_end(body, simulated.root_m, simulated.rotations)
+    end = blend_end(body, returning.root_m, returning.rotations)
+    return _between(world, row, tick, body, start, end, weight)
+
+
+def _between(world, row, tick, body, start, end, weight) -> Pose:
+    root_m, rotations = np.empty(3), np.empty((JOINT_COUNT, 4))
+    goals = goals_of(world[Feet], row, tick)
+    blend_into(body, start, end, weight, int(world[Blend].support[row]), goals, root_m, rotations)
+    return Pose(root_m, rotations)
+
+
+def foot_goals(world, row: int, tick: int, source: Pose) -> FootGoals:
+    """Where both ankles are to be: by the plan where a foot is held or steps, else where the source has them."""
+    planned = goals_of(world[Feet], row, tick)
+    positions, orientations = joints_of(body_of(world, row), source)
+    free = ~planned.bound[:, None]
+    return FootGoals(
+        np.where(free, positions[ANKLE_ROWS], planned.ankle_m),
+        np.where(free, orientations[ANKLE_ROWS], planned.turned),
+        np.ones(2, bool),
+    )

@@ -1,0 +1,112 @@
+"""The arms (section 5.3): elbow angle in closed form, then a turn about the line from shoulder to target; or hanging by parameters."""
+
+from __future__ import annotations
+
+import math
+
+from numba import njit
+
+from engine.body import limb_ik, limits
+from engine.body.skeleton import ELBOWS, SHOULDERS, WRISTS
+from engine.maths import quaternion
+
+# slots of an arm's parameters, radians; zeros are the neutral arm
+OUT, FORWARD, ELBOW, TURN, PALM, SWIVEL = range(6)
+ARM_PARAMETERS = ("out", "forward", "elbow", "turn", "palm", "swivel")
+
+# the neutral arm: a little away from the thigh, the elbow soft, the palm turned a little back
+NEUTRAL_OUT, NEUTRAL_FORWARD, NEUTRAL_ELBOW, NEUTRAL_PALM = (math.radians(a) for a in (9.0, 0.0, 16.0, 12.0))
+# by default the elbow points this far out from straight down and back when it reaches
+NEUTRAL_SWIVEL = math.radians(20.0)
+# how far an arm that hangs follows gravity (1) rather than the chest (0)
+HANG = 0.85
+FINEST_SWIVEL_STEPS, SWIVEL_STEP = 12, math.radians(10.0)
+
+
+@njit(cache=True)
+def hang_arm(body, arm, side, rotations, chest, clavicle):
+    """An arm without target: away from the body, forward, turned in, the elbow bent; written to rotations (J, 4).
+
+    arm (6,): see the slots. chest, clavicle: world orientations. It hangs mostly by gravity, so that a bent back lets the arms
+    drop and does not carry them behind itself.
+    """
+    out = 1.0 - 2.0 * side
+    upright = quaternion.about_z(quaternion.heading(chest))
+    base = quaternion.slerp(chest, upright, HANG)
+    lift = quaternion.from_rotation_vector((out * (arm[OUT] + NEUTRAL_OUT), -(arm[FORWARD] + NEUTRAL_FORWARD), 0.0))
+    upper = quaternion.multiply(base, quaternion.multiply(lift, quaternion.about_z(-out * arm[TURN])))
+    shoulder = quaternion.multiply(quaternion.conjugate(clavicle), upper)
+    s, e = SHOULDERS[side], ELBOWS[side]
+    _put(rotations, s, limits.clamp_rotation(body.limit_low_rad[s], body.limit_high_rad[s], shoulder))
+    bend = quaternion.about_y(-min(max(arm[ELBOW] + NEUTRAL_ELBOW, 0.0), -body.limit_low_rad[e, 1]))
+    palm = min(max(arm[PALM] + NEUTRAL_PALM, body.limit_low_rad[e, 2]), body.limit_high_rad[e, 2])
+    _put(rotations, e, quaternion.multiply(bend, quaternion.about_z(-out * palm)))
+    _put(rotations, WRISTS[side], quaternion.IDENTITY)
+
+
+@njit(cache=True)
+def ready_arm(side, rotations):
+    """An arm that is about to reach: at the side, the elbow at a right angle. Where it starts from decides nothing but its palm."""
+    _put(rotations, SHOULDERS[side], quaternion.IDENTITY)
+    _put(rotations, ELBOWS[side], quaternion.about_y(-0.5 * math.pi))
+    _put(rotations, WRISTS[side], quaternion.IDENTITY)
+
+
+@njit(cache=True)
+def arm_length_m(body, side):
+    """Shoulder to wrist of the straight arm."""
+    return -(body.offset_m[ELBOWS[side], 2] + body.offset_m[WRISTS[side], 2])
+
+
+@njit(cache=True)
+def reach(body, rotations, positions, orientations, side, target_m, swivel_rad):
+    """Puts a wrist on a world target, elbow at a swivel, in place (arrays of one pose). Returns how far it misses, metres."""
+    return limb_ik.apply_arm(
+        body, rotations, positions, orientations, side, target_m, swivel_rad, limb_ik.CARRIED, 0.0
+    )
+
+
+@njit(cache=True)
+def reach_within_limits(body, rotations, positions, orientations, side, target_m, swivel_rad):
+    """`reach` at the allowed swivel that is nearest to the wanted one. Returns the miss and the swivel taken.
+
+    Where no swivel is allowed, the shoulder is held at its limit and the wrist goes no farther than that.
+    """
+    miss = reach(body, rotations, positions, orientations, side, target_m, swivel_rad)
+    if _excess(body, rotations, side) == 0.0:
+        return miss, swivel_rad
+    for k in range(1, FINEST_SWIVEL_STEPS + 1):
+        for way in (1.0, -1.0):
+            allowed = swivel_rad + way * k * SWIVEL_STEP
+            miss = reach(body, rotations, positions, orientations, side, target_m, allowed)
+            if _excess(body, rotations, side) == 0.0:
+                return _edge_of_allowed(
+                    body, rotations, positions, orientations, side, target_m, allowed - way * SWIVEL_STEP, allowed
+                )
+    return miss, swivel_rad
+
+
+@njit(cache=True)
+def _edge_of_allowed(body, rotations, positions, orientations, side, target_m, forbidden, allowed):
+    """Halves the way between a forbidden and an allowed swivel until they are one, and takes the allowed one."""
+    for _ in range(20):
+        middle = 0.5 * (forbidden + allowed)
+        reach(body, rotations, positions, orientations, side, target_m, middle)
+        if _excess(body, rotations, side) == 0.0:
+            allowed = middle
+        else:
+            forbidden = middle
+    return reach(body, rotations, positions, orientations, side, target_m, allowed), allowed
+
+
+@njit(cache=True)
+def _excess(body, rotations, side):
+    s, e = SHOULDERS[side], ELBOWS[side]
+    shoulder = limits.joint_excess_rad(body.limit_low_rad[s], body.limit_high_rad[s], quaternion.IDENTITY, rotations[s])
+    elbow = limits.joint_excess_rad(body.limit_low_rad[e], body.limit_high_rad[e], quaternion.IDENTITY, rotations[e])
+    return max(shoulder, elbow)
+
+
+@njit(cache=True)
+def _put(rotations, joint, q):
+    rotations[joint, 0], rotations[joint, 1], rotations[joint, 2], rotations[joint, 3] = q
