@@ -1,0 +1,231 @@
+"""A ball and a body meet: where and when exactly, what impulse passes between them, and how it reaches both.
+
+The impulse is Newton's and Coulomb's, computed once from the body as it is jointed: J_mujoco M^-1 J_mujoco^T is how a place on the body
+gives way to a push, all joints transmitting. Servos, gravity and floor have no part in it. It may then be delivered at once, or
+as a half-sine force over the contact time (spec A8): the same shares go to both sides, so what one gains the other loses.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import mujoco
+import numpy as np
+from numba import njit
+
+from engine.body.capsules import CAPSULES, Capsules, capsules_at
+from engine.maths import quaternion, shapes, vector
+from engine.physics import ragdoll
+from engine.physics.model import RagdollModel
+from engine.physics.ragdoll import Push
+
+HOLLOW, SOLID = 2.0 / 3.0, 2.0 / 5.0  # moment of inertia of a thin shell and of a full ball, per m r^2
+
+
+class Ball(NamedTuple):
+    """A ball in flight; three-vectors are anything indexable, world."""
+
+    mass_kg: float
+    radius_m: float
+    centre_m: tuple[float, float, float]
+    velocity_mps: tuple[float, float, float]
+    spin_radps: tuple[float, float, float] = (0.0, 0.0, 0.0)
+    hollow: float = HOLLOW
+
+
+class Material(NamedTuple):
+    """What two surfaces do to each other."""
+
+    restitution: float  # 0 ... 1, along the normal
+    friction: float  # Coulomb
+
+
+# Inflated balls dropped on a hard floor return with 0.75 - 0.8 of their speed (Haron and Ismail 2012, Coefficient of restitution of sports
+# balls: a normal drop test) and lose more the faster they come, a soccer ball at 25 m/s about 0.1 (Price, Jones and Harland 2006);
+# flesh takes its part. Hollow balls grip at almost every angle: friction 0.5 and up (Cross 2014, Oblique bounce of a rubber ball).
+VOLLEYBALL_ON_SKIN = Material(0.65, 0.6)
+VOLLEYBALL_ON_FLOOR = Material(0.75, 0.6)
+VOLLEYBALL_CONTACT_S = 0.010  # spec A8
+
+
+class Hit(NamedTuple):
+    """The first contact of a ball with a body within a tick."""
+
+    share: float  # of the tick that passed before, 0 ... 1
+    part: str  # which capsule, by name
+    joint: int  # the joint that carries it
+    place_m: np.ndarray  # (3,) the contact in that joint's frame
+    point_m: np.ndarray  # (3,) the contact in the world, at that moment
+    normal: np.ndarray  # (3,) unit, from the body to the ball's centre, world
+
+
+class Impulse(NamedTuple):
+    """What passes between a ball and a body. On the ball; the body gets its opposite."""
+
+    impulse_Ns: np.ndarray  # (3,) world
+    turning_Nms: np.ndarray  # (3,) its moment about the ball's centre
+    joint: int
+    place_m: np.ndarray  # (3,) in the joint's frame
+    approach_mps: float  # speed of closing along the normal before, positive
+
+
+def first_hit(capsules: Capsules, before, now, centre_before_m, centre_m, radius_m: float) -> Hit | None:
+    """The first contact within a tick in which ball and body each move evenly.
+
+    before, now: (positions (J, 3), orientations (J, 4)) of the body at the tick's two ends. None if they do not meet.
+    """
+    ends0, ends1 = capsules_at(capsules, *before), capsules_at(capsules, *now)
+    centre0, centre1 = np.asarray(centre_before_m, float), np.asarray(centre_m, float)
+    c, share = _first(capsules.radius_m, ends0, ends1, centre0, centre1, float(radius_m))
+    if c < 0:
+        return None
+    start, end = ends0[c] + share * (ends1[c] - ends0[c])
+    centre = centre0 + share * (centre1 - centre0)
+    normal = np.array(shapes.outwards(start, end, centre))
+    along = shapes.nearest_on_segment(start, end, centre)
+    joint = int(capsules.joint[c])
+    frame = quaternion.slerp(before[1][joint], now[1][joint], share)
+    axis_point = capsules.start_m[c] + along * (capsules.end_m[c] - capsules.start_m[c])
+    outwards = np.array(quaternion.unrotate(frame, normal))
+    return Hit(
+        share=share,
+        part=CAPSULES[c],
+        joint=joint,
+        place_m=axis_point + capsules.radius_m[c] * outwards,
+        point_m=start + along * (end - start) + capsules.radius_m[c] * normal,
+        normal=normal,
+    )
+
+
+@njit(cache=True)
+def _first(radius_m, ends0, ends1, centre0, centre1, ball_radius_m):
+    """The capsule that is met first, and the share of the tick: (-1, -1) where none is."""
+    best, when = -1, 2.0
+    for c in range(len(radius_m)):
+        share = shapes.swept_sphere_capsule(
+            centre0, centre1, ends0[c, 0], ends0[c, 1], ends1[c, 0], ends1[c, 1], radius_m[c] + ball_radius_m
+        )
+        if 0.0 <= share < when:
+            best, when = c, share
+    return best, (when if best >= 0 else -1.0)
+
+
+def exchange(model: RagdollModel, state: np.ndarray, ball: Ball, hit: Hit, material: Material) -> Impulse | None:
+    """The impulse of one contact between a ball and a body in a state; None if they are parting already."""
+    place = _locate(model, state, hit.joint, hit.place_m)
+    gives, velocity = _mobility(model, place, hit.joint)
+    arm = -ball.radius_m * hit.normal
+    gap_velocity = np.asarray(ball.velocity_mps) + np.cross(ball.spin_radps, arm) - velocity
+    approach = -float((gap_velocity * hit.normal).sum())
+    if approach <= 0.0:
+        return None
+    gives = gives + ball_mobility(ball.mass_kg, ball.radius_m, ball.hollow, hit.normal)
+    j = np.array(contact_impulse(gives, gap_velocity, hit.normal, *material))
+    return Impulse(j, np.cross(arm, j), hit.joint, np.asarray(hit.place_m, float), approach)
+
+
+def bounce(ball: Ball, normal, material: Material) -> Ball:
+    """A ball after it has met something that does not give, like the floor; the same ball if it is parting already."""
+    n = np.asarray(normal, float)
+    arm = -ball.radius_m * n
+    gap_velocity = np.asarray(ball.velocity_mps) + np.cross(ball.spin_radps, arm)
+    if (gap_velocity * n).sum() >= 0.0:
+        return ball
+    gives = ball_mobility(ball.mass_kg, ball.radius_m, ball.hollow, n)
+    j = np.array(contact_impulse(gives, gap_velocity, n, *material))
+    return ball_after(ball, Impulse(j, np.cross(arm, j), -1, arm, 0.0))
+
+
+def ball_after(ball: Ball, impulse: Impulse, share: float = 1.0) -> Ball:
+    """The ball when a share of the impulse has reached it: velocity and spin change, its place does not."""
+    inertia = ball.hollow * ball.mass_kg * ball.radius_m**2
+    velocity = np.asarray(ball.velocity_mps) + share * impulse.impulse_Ns / ball.mass_kg
+    spin = np.asarray(ball.spin_radps) + share * impulse.turning_Nms / inertia
+    return ball._replace(velocity_mps=tuple(velocity.tolist()), spin_radps=tuple(spin.tolist()))
+
+
+def body_after(model: RagdollModel, state: np.ndarray, impulse: Impulse) -> np.ndarray:
+    """The state when the body has taken all of its side of the impulse at once: velocities change, places do not."""
+    place = _locate(model, state, impulse.joint, impulse.place_m)
+    jacobian = _jacobian(model, place, impulse.joint)
+    push = -(jacobian * impulse.impulse_Ns[:, None]).sum(axis=0)
+    change = np.empty((1, len(push)))
+    mujoco.mj_solveM(model.mujoco_model, model.data, change, push[None, :])
+    out = np.array(state, float)
+    out[model.velocities] += change[0]
+    return out
+
+
+def push_of(impulse: Impulse, since_s: float, duration_s: float = VOLLEYBALL_CONTACT_S) -> Push:
+    """The body's side of the impulse, for ragdoll.step to deliver; since_s: time since contact when the step begins."""
+    return Push(impulse.joint, impulse.place_m, -impulse.impulse_Ns, since_s, duration_s)
+
+
+def _locate(model, state, joint, place_m):
+    """Loads a state, without servos or their armature, into the scratch data. Returns the place in the world."""
+    m, d = model.mujoco_model, model.data
+    mujoco.mj_setState(m, d, np.ascontiguousarray(state, dtype=float), mujoco.mjtState.mjSTATE_INTEGRATION)
+    m.dof_armature[:] = 0.0
+    mujoco.mj_fwdPosition(m, d)
+    return ragdoll.place_in_world(model, joint, place_m)
+
+
+def _jacobian(model, place, joint):
+    """(3, nv): how the place moves with the generalised velocities."""
+    out = np.empty((3, model.mujoco_model.nv))
+    mujoco.mj_jac(model.mujoco_model, model.data, out, None, place, joint + 1)
+    return out
+
+
+def _mobility(model, place, joint):
+    """How the place gives way: change of its velocity (3, 3) per impulse there, J M^-1 J^T; and its velocity now."""
+    jacobian = _jacobian(model, place, joint)
+    solved = np.empty_like(jacobian)
+    mujoco.mj_solveM(model.mujoco_model, model.data, solved, jacobian)
+    gives = (jacobian[:, None, :] * solved[None, :, :]).sum(axis=2)
+    return 0.5 * (gives + gives.T), (jacobian * model.data.qvel).sum(axis=1)
+
+
+def ball_mobility(mass_kg: float, radius_m: float, hollow: float, normal: np.ndarray) -> np.ndarray:
+    """(3, 3) the same for the ball's surface at the contact: it gives by moving, and, across the normal, by spinning."""
+    across = np.eye(3) - np.multiply.outer(normal, normal)
+    return np.eye(3) / mass_kg + across / (hollow * mass_kg)
+
+
+@njit(cache=True)
+def contact_impulse(gives, gap_velocity, normal, restitution, friction):
+    """The impulse on the ball that takes the approach u_n to -e u_n exactly, within Coulomb's cone.
+
+    gives (3, 3): mobility of both sides together; u' = u + gives j. If the surfaces can hold each other (|j_t| <= mu j_n), the
+    slip ends, else they slide along the way that holding would have pushed, with j_t = mu j_n, and j_n from the normal's equation.
+    """
+    n = (normal[0], normal[1], normal[2])
+    u = (gap_velocity[0], gap_velocity[1], gap_velocity[2])
+    u_n = vector.inner(u, n)
+    slip = vector.reject(u, n)
+    wanted = vector.along(vector.scale(slip, -1.0), n, -(1.0 + restitution) * u_n)
+    j = _solve3(gives, wanted)
+    j_n = vector.inner(j, n)
+    j_t = vector.reject(j, n)
+    if j_n > 0.0 and vector.length(j_t) <= friction * j_n:
+        return j
+    way = vector.along(n, vector.unit(j_t, (0.0, 0.0, 0.0)), friction)
+    given = vector.inner(n, _times(gives, way))
+    if given <= 0.0:  # a lever so odd that friction would pull the pair apart: then it does nothing
+        way, given = n, vector.inner(n, _times(gives, n))
+    return vector.scale(way, -(1.0 + restitution) * u_n / given)
+
+
+@njit(cache=True)
+def _times(a, v):
+    return (vector.inner(a[0], v), vector.inner(a[1], v), vector.inner(a[2], v))
+
+
+@njit(cache=True)
+def _solve3(a, b):
+    """a x = b for a symmetric positive (3, 3), by cross products (Cramer's rule)."""
+    r0, r1, r2 = (a[0, 0], a[0, 1], a[0, 2]), (a[1, 0], a[1, 1], a[1, 2]), (a[2, 0], a[2, 1], a[2, 2])
+    c0, c1, c2 = vector.cross(r1, r2), vector.cross(r2, r0), vector.cross(r0, r1)
+    det = vector.inner(r0, c0)
+    total = vector.add(vector.add(vector.scale(c0, b[0]), vector.scale(c1, b[1])), vector.scale(c2, b[2]))
+    return vector.scale(total, 1.0 / det)
