@@ -14,6 +14,7 @@ import numpy as np
 from behaviours.stance.lower_body import KNEES_EXACT, TRADE_OFFS
 from behaviours.stance.torso import ALIGNED, COLLAR_STATES, SHAPE_CLASSES, STRAIGHT
 from engine.core.errors import BadInput
+from engine.core.random import Stream
 
 DOMINANT = ("left", "right")
 
@@ -151,14 +152,14 @@ def mix(start: Shape, end: Shape, weight: float) -> Shape:
     return Shape(start.states if weight == 0.0 else end.states, Numbers(*(a + weight * (b - a)).tolist()))
 
 
-def varied(base: Shape, random: np.random.Generator, amount: float) -> Shape:
+def varied(base: Shape, chance: Stream, amount: float) -> Shape:
     """The same stance, never quite the same: each number strays by about `amount` of its range (section 6).
 
     Width, rise and gaze, which are decisions and not looseness, stay.
     """
     numbers = {}
     for name, value in base.numbers._asdict().items():
-        stray = random.normal() * amount * 0.5 * (RANGES[name].high - RANGES[name].low)
+        stray = chance.normal() * amount * 0.5 * (RANGES[name].high - RANGES[name].low)
         numbers[name] = value if name in ("width_m", "rise_rad", "gaze") else within(name, value + stray)
     return Shape(base.states, Numbers(**numbers))
 

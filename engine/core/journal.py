@@ -24,7 +24,7 @@ class Journal:
 
     header: dict[str, Any]  # whatever the world is rebuilt from: scenario, keys of the assets
     first_tick: int = 0
-    start: Snapshot | None = None  # the state at `first_tick`, where the header alone does not give it
+    start: Snapshot | None = None  # the state at `first_tick`, where that is not the world as built
     inputs: dict[int, list[Command]] = field(default_factory=dict)  # commands by the tick that they came before
     digests: bytearray = field(default_factory=bytearray)
 

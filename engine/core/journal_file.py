@@ -64,13 +64,16 @@ def _unpack(payload: bytes) -> Journal:
     reader = Reader(payload)
     header = json.loads(reader.block())
     first_tick = reader.integer()
-    start = reader.block()
+    start_bytes = reader.block()
     inputs = _inputs(json.loads(reader.block()))
     digests = bytearray(reader.block())
     reader.finish()
     if not isinstance(header, dict) or not digests or len(digests) % DIGEST_BYTES:
         raise ValueError("no header, or no digests")
-    return Journal(header, first_tick, Snapshot.from_bytes(start) if start else None, inputs, digests)
+    start = Snapshot.from_bytes(start_bytes) if start_bytes else None
+    if first_tick != (start.tick if start else 0):
+        raise ValueError(f"it begins at tick {first_tick} without the state there")
+    return Journal(header, first_tick, start, inputs, digests)
 
 
 def _inputs(rows: object) -> dict[int, list[Command]]:

@@ -43,10 +43,10 @@ class Recorder:
         return self.world.tick >= self.journal.last_tick
 
 
-def new_journal(header: dict[str, Any], world: World, with_start: bool = False) -> Journal:
-    """An empty journal that begins now. `with_start` keeps the state itself, for a recording that begins in mid-run."""
+def new_journal(header: dict[str, Any], world: World) -> Journal:
+    """An empty journal that begins now. In mid-run it keeps the state itself, which no header could rebuild."""
     known = {"made_with": made_with(), **plain_json(header)}
-    return Journal(known, world.tick, world.snapshot() if with_start else None)
+    return Journal(known, world.tick, world.snapshot() if world.tick else None)
 
 
 def replay(world: World, step: Step, apply: Apply, journal: Journal) -> Recorder:
@@ -57,6 +57,6 @@ def replay(world: World, step: Step, apply: Apply, journal: Journal) -> Recorder
     if journal.start is not None:
         try:
             world.restore(journal.start)
-        except ValueError as trouble:
+        except (ValueError, IndexError) as trouble:
             raise BadInput("JOURNAL", f"the recording does not fit: {trouble}") from trouble
     return Recorder(world, step, apply, journal)

@@ -76,7 +76,7 @@ def test_a_recording_begun_in_mid_run_brings_its_start(tmp_path):
     world, step = toy()
     for _ in range(33):
         step(world)
-    recorder = Recorder(world, step, throw, new_journal({}, world, with_start=True))
+    recorder = Recorder(world, step, throw, new_journal({}, world))
     recorder.command(THROW)
     for _ in range(50):
         recorder.advance()
@@ -88,9 +88,10 @@ def test_a_recording_begun_in_mid_run_brings_its_start(tmp_path):
 
 def test_a_start_from_another_kind_of_world_is_bad_input():
     stranger = World(COMPONENTS[:1], seed=7)
+    stranger.tick = 1
     world, step = toy()
     with pytest.raises(BadInput, match="the recording does not fit: the snapshot was taken from a world of other comp"):
-        replay(world, step, throw, new_journal({}, stranger, with_start=True))
+        replay(world, step, throw, new_journal({}, stranger))
 
 
 @pytest.mark.parametrize("tick", [0, 1, 77, 150])
@@ -210,6 +211,7 @@ def test_a_file_that_is_not_there_or_no_file(tmp_path):
         {"digests": bytearray(15)},
         {"inputs": {3: ["no table"]}},
         {"inputs": {3: 7}},
+        {"first_tick": 4},
     ],
 )
 def test_content_of_the_wrong_kind_is_one_line(change, tmp_path):
