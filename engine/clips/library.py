@@ -1,0 +1,90 @@
+"""The clips that have a name, and how any clip is found: by that name, or as a file."""
+
+from __future__ import annotations
+
+import difflib
+from dataclasses import dataclass
+from pathlib import Path
+
+from engine.clips import cache
+from engine.clips.cache import cache_folder as cache_folder
+from engine.clips.clip import Clip
+from engine.clips.fetching import clip_folder
+from engine.clips.fetching import fetch as fetch
+from engine.clips.importing import FORMATS, Wanted, build_clip, content_key, read_tracks
+from engine.clips.mirror import mirror_clip as mirror_clip
+from engine.clips.synthetic import sway
+from engine.core.errors import BadInput, EnvironmentTrouble
+
+
+@dataclass(frozen=True)
+class Listed:
+    """One clip of the library."""
+
+    name: str
+    about: str
+    file: str | None = None  # in the folder of fetched clips; None for the embedded one
+    frames: tuple[int, int] | None = None  # of the file, if not all of it
+
+    @property
+    def path(self) -> Path | None:
+        return clip_folder() / self.file if self.file else None
+
+    @property
+    def ready(self) -> bool:
+        """Whether it can be played now, without network."""
+        return self.path is None or self.path.is_file()
+
+
+LIBRARY = (
+    Listed("walk", "straight walk, 1.5 m/s, goes round", "walk.npz"),
+    Listed("run", "run, 3.4 m/s, goes round", "run.npz"),
+    Listed("dance", "dancing upright, 15 s", "dance.npz"),
+    Listed("hop", "hops ahead, turns, hops back, 23 s (CMU 01_01)", "hop.amc"),
+    # he kneels down after the first three seconds
+    Listed("stand", "standing still, goes round", "stand.bvh", (0, 100)),
+    Listed("sway", "standing, shifting weight, breathing; embedded, goes round"),
+)
+
+
+def list_clips() -> list[Listed]:
+    """The library, with what is ready. Looks only whether files are there."""
+    return list(LIBRARY)
+
+
+def find_clip(name_or_path: str | Path, relative_to: str | Path | None = None, *, sex: str = "male", body_mass_kg: float | None = None) -> Clip:  # fmt: skip
+    """The clip of that library name or in that file; a relative path counts from the folder `relative_to`, else from here.
+
+    BadInput for a name or file that is not there; EnvironmentTrouble for a library clip that has not been fetched.
+    """
+    named = next((listed for listed in LIBRARY if listed.name == str(name_or_path)), None)
+    if named is None:
+        return load_clip(_file(str(name_or_path), relative_to), Wanted(sex, body_mass_kg))
+    if named.path is None:
+        return sway(sex, body_mass_kg)
+    if not named.ready:
+        message = f"clip {named.name!r} is not here yet; `brace clips fetch` brings it, `sway` needs no fetching"
+        raise EnvironmentTrouble("clip-not-fetched", message)
+    return load_clip(named.path, Wanted(sex, body_mass_kg, *(named.frames or (0, None))), named.name)
+
+
+def load_clip(path: Path, wanted: Wanted, name: str | None = None) -> Clip:
+    """A file's clip, from the cache if this content was imported before."""
+    key = content_key(path, wanted)
+    name = name or path.stem
+    clip = cache.load(key)
+    if clip is None or clip.name != name:
+        clip = build_clip(read_tracks(path), path, wanted, name, key)
+        cache.save(clip)
+    return clip
+
+
+def _file(text: str, relative_to: str | Path | None) -> Path:
+    path = Path(text).expanduser()
+    if not path.is_absolute() and relative_to is not None:
+        path = Path(relative_to) / path
+    if path.is_file() or path.suffix.lower() in FORMATS:
+        return path
+    names = [listed.name for listed in LIBRARY]
+    near = difflib.get_close_matches(text, names, n=len(names), cutoff=0.0)
+    raise BadInput("clip-missing", f"found no clip or file {text!r}, expected {', '.join(near)}, or a {', '.join(FORMATS)} file")
