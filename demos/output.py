@@ -13,7 +13,18 @@ from engine.core.errors import EnvironmentTrouble
 
 def print_json(data: Any) -> None:
     """One JSON document on standard output. NaN or infinity in it is a fault of ours, and raises."""
-    print(json.dumps(data, indent=1, allow_nan=False, default=_plain))
+    print(_laid_out(json.loads(json.dumps(data, allow_nan=False, default=_plain)), ""))
+
+
+def _laid_out(data: Any, indent: str) -> str:
+    """JSON with a line for each entry, but arrays of plain values on one: points and contacts stay readable."""
+    within = indent + "  "
+    if isinstance(data, dict) and data:
+        entries = [f"{within}{json.dumps(key)}: {_laid_out(value, within)}" for key, value in data.items()]
+        return "{\n" + ",\n".join(entries) + f"\n{indent}}}"
+    if isinstance(data, list) and any(isinstance(value, dict) for value in data):
+        return "[\n" + ",\n".join(f"{within}{_laid_out(value, within)}" for value in data) + f"\n{indent}]"
+    return json.dumps(data)
 
 
 def check_writable(path: str | os.PathLike[str]) -> Path:
@@ -34,7 +45,9 @@ def say(message: str) -> None:
 
 
 def _plain(value: Any) -> Any:
-    """numpy's numbers and arrays as JSON's own."""
+    """numpy's numbers and arrays, and paths, as JSON's own."""
     if hasattr(value, "tolist"):
         return value.tolist()
+    if isinstance(value, os.PathLike):
+        return os.fspath(value)
     raise TypeError(f"{type(value).__name__} has no place in JSON")

@@ -8,9 +8,9 @@ from __future__ import annotations
 from collections.abc import Collection
 
 import numpy as np
-from behaviours.playing import body_of, clip_pose, clip_time_s
 
 from behaviours.components import Character, Feet, Flight, Phase, Posture, Reaction, Sustained
+from behaviours.playing import body_of, clip_pose, clip_time_s
 from engine.body.kinematics import com_of, joints_of
 from engine.body.skeleton import Body, Pose
 from engine.body.support import polygon_of

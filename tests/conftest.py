@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import os
+from collections.abc import Callable
 from pathlib import Path
+from typing import Any
 
 os.environ.setdefault("NUMBA_THREADING_LAYER", "workqueue")
 
@@ -12,6 +14,9 @@ import pytest
 from hypothesis import settings
 
 from demos.kernels import forget_stale
+from engine.clips.clip import Clip
+from engine.clips.library import find_clip
+from engine.core.errors import EnvironmentTrouble
 
 settings.register_profile("house", derandomize=True, deadline=None, database=None, print_blob=True)
 settings.load_profile("house")
@@ -39,3 +44,16 @@ def shared_mocap() -> Path:
     if not folder.is_dir():
         pytest.skip("the motion capture beside the checkout (../shared/mocap) is not here")
     return folder
+
+
+@pytest.fixture(scope="session")
+def library_clip() -> Callable[..., Clip]:
+    """A clip of the library by its name; skips where it was never fetched (`./run test` fetches once)."""
+
+    def clip_of(name: str, **wanted: Any) -> Clip:
+        try:
+            return find_clip(name, **wanted)
+        except EnvironmentTrouble as trouble:
+            pytest.skip(trouble.message)
+
+    return clip_of

@@ -1,0 +1,64 @@
+"""`brace capture`: a scenario as a film, a folder of pictures or one filmstrip, without any display."""
+
+from __future__ import annotations
+
+import argparse
+
+from demos.commands.arguments import add_filming, add_scenario, shot_of
+from demos.output import say
+
+STRIP_FRAMES = 8
+STRIP_SIZE = "480x540"
+
+
+def register(subparsers) -> None:
+    parser = subparsers.add_parser(
+        "capture",
+        help="a scenario as .mp4, .gif, a folder of .png, or one .png filmstrip",
+        description="Draws a scenario without any display. The output appears whole, or not at all.",
+        epilog="example: brace capture volleyball -o volleyball.mp4 --ghosts",
+    )
+    add_scenario(parser)
+    parser.add_argument("-o", "--output", required=True, metavar="OUT", help="x.mp4, x.gif, x.png (strip) or a folder")
+    parser.add_argument("--frames", type=int, metavar="N", help=f"pictures in a filmstrip ({STRIP_FRAMES})")
+    parser.add_argument("--columns", type=int, metavar="N", help="pictures in a row of a filmstrip (all of them)")
+    parser.add_argument("--from", type=float, dest="from_s", metavar="S", help="filmstrip: from this second on")
+    parser.add_argument("--to", type=float, dest="to_s", metavar="S", help="filmstrip: up to this second")
+    add_filming(parser, size="")
+    parser.set_defaults(run=run)
+
+
+def run(args: argparse.Namespace) -> None:
+    from demos.running import open_scenario, start
+    from engine.render.capture import capture_kind
+
+    args.size = args.size or (STRIP_SIZE if args.output.lower().endswith(".png") else "1280x720")
+    shot = shot_of(args)
+    kind = capture_kind(args.output)
+    simulation = start(*open_scenario(args.scenario, args.set))
+    if kind == "png":
+        write_strip(args, simulation, shot)
+    else:
+        write_film(args.output, simulation.world, simulation.step, simulation.ticks, shot)
+    say(f"wrote {args.output}")
+
+
+def write_film(output: str, world, advance, ticks: int, shot) -> None:
+    """The whole run as moving pictures."""
+    from demos.filming import frame_count, moments, pictures
+    from demos.running import with_progress
+    from engine.render.capture import write_film
+
+    drawn = pictures(moments(world, advance, ticks, shot), shot)
+    write_film(output, with_progress(drawn, "drawing", frame_count(ticks, shot)), shot.fps)
+
+
+def write_strip(args: argparse.Namespace, simulation, shot) -> None:
+    """Chosen moments of the run side by side."""
+    from demos.filming import choose, moments, strip_pictures
+    from engine.render.capture import write_filmstrip
+
+    seen = list(moments(simulation.world, simulation.step, simulation.ticks, shot._replace(fps=120.0)))
+    chosen = choose(seen, args.frames or STRIP_FRAMES, args.from_s, args.to_s)
+    captions = [f"{now.time_s:.2f} s\n{now.phase.replace('_', ' ')}" for now in chosen]
+    write_filmstrip(args.output, strip_pictures(chosen, shot), captions, columns=args.columns)
