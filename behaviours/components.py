@@ -107,6 +107,8 @@ class Blow(Component):
     joint = column(dtype=np.int64)
     place_m = column(3)  # in the joint's frame
     impulse_Ns = column(3)  # on the body, all of it, world
+    turning_Nms = column(3)  # on the ball, about its centre, world
+    normal = column(3)  # from the body to the ball
     elapsed_s = column()  # since contact
     lasts_s = column()
 
@@ -157,9 +159,9 @@ class Flight(Component):
     radius_m = column()
     mass_kg = column()
     drag_per_m = column()
-    restitution = column()
+    restitution = column()  # off the floor; off people it is the settings'
     friction = column()
-    contact_s = column()
+    held = column(dtype=bool)  # pressed against a body just now: it moves with the contact
 
 
 class Threat(Component):

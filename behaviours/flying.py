@@ -12,29 +12,23 @@ from behaviours.timing import TICK_S
 from engine.core.schedule import Stage, system
 from engine.maths import quaternion
 from engine.maths.ballistics import GRAVITY_MPS2, fly
+from engine.physics.impact import HOLLOW, contact_impulse
 
 ROLLING = 0.02  # resistance of a ball that rolls on a hard floor, as a share of its weight
-HOLLOW = 2.0 / 3.0  # inertia of a thin shell, in m r^2
+UP = (0.0, 0.0, 1.0)
 
 
 @njit(cache=True)
 def bounce(velocity, spin, radius_m, restitution, friction):
-    """What is left of velocity and spin after the ground has pushed back: restitution upwards, Coulomb friction along it.
-
-    A thin shell touching with its lowest point; the friction impulse stops the sliding there or is at its limit.
-    """
-    up = -velocity[2]
-    push = (1.0 + restitution) * up  # per unit mass
+    """What is left of velocity and spin after the ground has pushed back: the impact law of `engine.physics.impact`."""
+    gives = np.diag(np.array([1.0 + 1.0 / HOLLOW, 1.0 + 1.0 / HOLLOW, 1.0]))  # of a unit mass, at its lowest point
     # the point of contact moves with the ball and with its spin: v + w x (0, 0, -r)
-    slide_x = velocity[0] - spin[1] * radius_m
-    slide_y = velocity[1] + spin[0] * radius_m
-    slide = math.hypot(slide_x, slide_y)
-    rub = 0.0 if slide < 1e-9 else min(friction * push, slide / (1.0 + 1.0 / HOLLOW)) / slide
-    kick_x, kick_y = -rub * slide_x, -rub * slide_y
+    gap = (velocity[0] - spin[1] * radius_m, velocity[1] + spin[0] * radius_m, velocity[2])
+    j = contact_impulse(gives, gap, UP, restitution, friction)
     turn = 1.0 / (HOLLOW * radius_m)
     return (
-        (velocity[0] + kick_x, velocity[1] + kick_y, restitution * up),
-        (spin[0] + turn * kick_y, spin[1] - turn * kick_x, spin[2]),
+        (velocity[0] + j[0], velocity[1] + j[1], velocity[2] + j[2]),
+        (spin[0] + turn * j[1], spin[1] - turn * j[0], spin[2]),
     )
 
 
@@ -80,6 +74,7 @@ def fly_balls(world, tick):
     if not len(rows):
         return
     f = world[Flight]
+    rows = rows[~f.held[rows]]
     f.before_m[rows] = f.position_m[rows]
     f.before_turned[rows] = f.turned[rows]
     fly_all(

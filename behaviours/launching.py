@@ -144,7 +144,6 @@ def ball(kind: str, make: Make, position_m, velocity_mps, spin_radps=(0.0, 0.0, 
         drag_per_m=make.drag_per_m,
         restitution=of.restitution,
         friction=of.friction,
-        contact_s=of.contact_s,
     )
 
 

@@ -176,7 +176,7 @@ class Blend(NamedTuple):
     overshoot_share: Annotated[float, Constant("1", "A6", "amplitude of the damped overshoot that fills a pause")] = 0.06
     overshoot_period_s: Annotated[float, Constant("s", "A6", "its period")] = 0.5
     overshoot_half_life_s: Annotated[float, Constant("s", "A6", "its half-life")] = 0.12
-    seam_half_life_s: Annotated[float, Constant("s", "A7", "half-life of what a seam leaves over")] = 0.03
+    seam_half_life_s: Annotated[float, Constant("s", "A7", "half-life of what a seam leaves over")] = 0.07
 
 
 class Response(NamedTuple):
@@ -186,6 +186,8 @@ class Response(NamedTuple):
     restitution: Annotated[float, Constant("1", "A8", "ball against body")] = 0.55
     friction: Annotated[float, Constant("1", "A8", "ball against body")] = 0.5
     contact_s: Annotated[float, Constant("s", "A8", "how long the ball presses, half a sine; 0 is an instant")] = 0.010
+    least_Ns: Annotated[float, Constant("N s", "A8", "a weaker touch turns the ball away and moves nobody")] = 0.4
+    down_share: Annotated[float, Constant("1", "A8", "of that strength that is left once knocked down")] = 0.15
     stiffness: Annotated[float, Constant("1", "A8", "strength of the tracking servos, 1 is usual")] = 1.0
     damping: Annotated[float, Constant("1", "A8", "their damping, 1 is critical")] = 1.0
 

@@ -35,6 +35,7 @@ from behaviours.settings import Settings, override
 from behaviours.settling import settle_poses
 from behaviours.threats import make_threat
 from behaviours.timing import TICK_S
+from engine.body.capsules import Capsules, body_capsules
 from engine.body.skeleton import Body
 from engine.clips.clip import Clip
 from engine.clips.mirror import mirror_clip
@@ -68,6 +69,7 @@ class Assets:
     clips: tuple[Clip, ...]
     bodies: tuple[Body, ...]
     models: tuple[RagdollModel, ...]
+    capsules: tuple[Capsules, ...]
     threats: tuple[ThreatSpec, ...]
     character_rows: tuple[int, ...]
 
@@ -79,7 +81,8 @@ def build_world(scenario: Scenario, find: FindClip) -> World:
     rows = tuple(range(len(clips)))
     settings = override(Settings(), flat_settings(scenario.settings))
     models = tuple(model_for(body) for body in bodies)
-    assets = Assets(settings, clips, bodies, models, scenario.threat, rows)
+    capsules = tuple(body_capsules(body) for body in bodies)
+    assets = Assets(settings, clips, bodies, models, capsules, scenario.threat, rows)
     world = World(COMPONENTS, scenario.seed, assets)
     for row, spec in zip(rows, scenario.character, strict=True):
         _spawn_character(world, row, spec)

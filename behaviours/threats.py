@@ -21,18 +21,17 @@ class Kind(NamedTuple):
     mass_range_kg: tuple[float, float]  # at size 0 and 1, where size means the mass
     speed_range_mps: tuple[float, float]  # what 0 and 1 mean to the rules
     drag_per_m: float  # quadratic drag: a = -k |v| v, k = rho C_d A / 2 m; used where a threat asks for drag
-    restitution: float
+    restitution: float  # off a hard floor
     friction: float
-    contact_s: float  # how long one impact lasts
 
 
 # Volleyball: FIVB official size and weight; spike speeds 22.8 - 29.7 m/s (Forthomme et al. 2005, in the thesis);
 # C_d 0.2 past the drag crisis (Asai et al. 2010).
 KINDS = {
     "volleyball": Kind(
-        0.105, 0.27, (0.06, 0.20), (0.1, 2.0), (22.8, 29.7), drag_per_m(0.105, 0.27, 0.2), 0.75, 0.5, 0.010
+        0.105, 0.27, (0.06, 0.20), (0.1, 2.0), (22.8, 29.7), drag_per_m(0.105, 0.27, 0.2), 0.75, 0.6
     ),
-    "custom": Kind(0.105, 0.27, (0.05, 0.30), (0.05, 10.0), (22.8, 29.7), drag_per_m(0.105, 0.27, 0.45), 0.5, 0.5, 0.010),
+    "custom": Kind(0.105, 0.27, (0.05, 0.30), (0.05, 10.0), (22.8, 29.7), drag_per_m(0.105, 0.27, 0.45), 0.5, 0.6),
 }
 
 

@@ -7,8 +7,8 @@ import math
 from numba import njit
 
 from engine.body import limb_ik, limits
-from engine.body.skeleton import ELBOWS, SHOULDERS, WRISTS
-from engine.maths import quaternion
+from engine.body.skeleton import ELBOWS, PARENT, SHOULDERS, WRISTS
+from engine.maths import quaternion, vector
 
 # slots of an arm's parameters, radians; zeros are the neutral arm
 OUT, FORWARD, ELBOW, TURN, PALM, SWIVEL = range(6)
@@ -83,7 +83,18 @@ def reach_within_limits(body, rotations, positions, orientations, side, target_m
                 return _edge_of_allowed(
                     body, rotations, positions, orientations, side, target_m, allowed - way * SWIVEL_STEP, allowed
                 )
-    return miss, swivel_rad
+    return _hold_at_limits(body, rotations, positions, orientations, side, target_m), swivel_rad
+
+
+@njit(cache=True)
+def _hold_at_limits(body, rotations, positions, orientations, side, target_m):
+    """Draws shoulder and elbow back to their limits, in place; returns how far the wrist then is from the target."""
+    for joint in (SHOULDERS[side], ELBOWS[side]):
+        held = limits.clamp_rotation(body.limit_low_rad[joint], body.limit_high_rad[joint], rotations[joint])
+        _put(rotations, joint, held)
+        limb_ik.place_children(body.offset_m, rotations, positions, orientations, PARENT[joint], joint)
+    limb_ik.place_children(body.offset_m, rotations, positions, orientations, ELBOWS[side], WRISTS[side])
+    return vector.distance(positions[WRISTS[side]], target_m)
 
 
 @njit(cache=True)

@@ -12,11 +12,14 @@ from typing import NamedTuple
 import numpy as np
 
 from behaviours.stance.lower_body import KNEES_EXACT, TRADE_OFFS
+from behaviours.stance.penalty import Side
 from behaviours.stance.torso import ALIGNED, COLLAR_STATES, SHAPE_CLASSES, STRAIGHT
 from engine.core.errors import BadInput
 from engine.core.random import Stream
 
-DOMINANT = ("left", "right")
+# the foot that carries the balance: the one with more weight on it, or one that is named (the other may then be lifted)
+DOMINANT = ("heavier", "left", "right")
+HEAVIER, LEFT_FOOT, RIGHT_FOOT = DOMINANT
 
 
 class States(NamedTuple):
@@ -27,7 +30,7 @@ class States(NamedTuple):
     collar_y: str = ALIGNED
     collar_z: str = ALIGNED
     trade_off: str = KNEES_EXACT
-    dominant: str = "left"
+    dominant: str = HEAVIER
     solve_abdomen: bool = False  # whether the solver may tip the whole torso at the abdomen
 
 
@@ -115,16 +118,48 @@ RANGES = {
 }
 
 
+class Wish(NamedTuple):
+    """How firmly the solver keeps to one wanted number: its penalty (see `penalty`) and its weight in eq. 5."""
+
+    low: Side
+    high: Side
+    weight: float = 1.0
+
+
+def evenly(basin: float, far: float, basin_height: float = 0.01, weight: float = 1.0) -> Wish:
+    """A wish that is alike on both sides, and 1 at the far point."""
+    side = Side(basin, basin_height, far, 1.0)
+    return Wish(side, side, weight)
+
+
+# by the solver's unknowns; units are those of the numbers
+WISHES = {
+    "coronal": evenly(0.2, 2.0),
+    "sagittal": evenly(0.2, 2.5),
+    "transverse": evenly(0.08, 0.8),
+    "collar_y": evenly(0.06, 0.5),
+    "collar_z": evenly(0.04, 0.3),
+    "abdomen_x": evenly(0.06, 0.6),
+}
+
+
 class Shape(NamedTuple):
-    """A state set and a shape vector."""
+    """A state set, a shape vector, and how firmly the solver keeps to it."""
 
-    states: States
-    numbers: Numbers
+    states: States = States()
+    numbers: Numbers = Numbers()
+    wishes: tuple[Wish, ...] = tuple(WISHES.values())
 
 
-def shape(**values) -> Shape:
-    """A shape from the names of its states and numbers. BadInput names what is unknown, not allowed or not finite."""
+def shape(*, wishes: dict[str, Wish] | None = None, **values) -> Shape:
+    """A shape from the names of its states and numbers; wishes: by unknown, those that differ from WISHES.
+
+    BadInput names what is unknown, not allowed or not finite.
+    """
     states, numbers = {}, {}
+    for name in wishes or {}:
+        if name not in WISHES:
+            raise BadInput("stance", f"unknown wish {name!r}, expected some of {', '.join(WISHES)}")
     for name, value in values.items():
         if name in ALLOWED:
             if value not in ALLOWED[name]:
@@ -138,18 +173,19 @@ def shape(**values) -> Shape:
             known = (*ALLOWED, *RANGES)
             close = difflib.get_close_matches(name, known, n=3)
             raise BadInput("stance", f"unknown shape parameter {name!r}, expected one of {', '.join(close or known)}")
-    return Shape(States(**states), Numbers(**numbers))
+    return Shape(States(**states), Numbers(**numbers), tuple({**WISHES, **(wishes or {})}.values()))
 
 
 def changed(base: Shape, **values) -> Shape:
     """A shape with some states and numbers replaced."""
-    return shape(**{**base.states._asdict(), **base.numbers._asdict(), **values})
+    new = shape(**{**base.states._asdict(), **base.numbers._asdict(), **values})
+    return new._replace(wishes=base.wishes)
 
 
 def mix(start: Shape, end: Shape, weight: float) -> Shape:
     """The numbers between (or, past 0 and 1, beyond) two shape vectors; the states of `end`, but of `start` at 0."""
     a, b = np.array(start.numbers), np.array(end.numbers)
-    return Shape(start.states if weight == 0.0 else end.states, Numbers(*(a + weight * (b - a)).tolist()))
+    return (start if weight == 0.0 else end)._replace(numbers=Numbers(*(a + weight * (b - a)).tolist()))
 
 
 def varied(base: Shape, chance: Stream, amount: float) -> Shape:
@@ -161,13 +197,13 @@ def varied(base: Shape, chance: Stream, amount: float) -> Shape:
     for name, value in base.numbers._asdict().items():
         stray = chance.normal() * amount * 0.5 * (RANGES[name].high - RANGES[name].low)
         numbers[name] = value if name in ("width_m", "rise_rad", "gaze") else within(name, value + stray)
-    return Shape(base.states, Numbers(**numbers))
+    return base._replace(numbers=Numbers(**numbers))
 
 
 def wind_up(base: Shape, share: float = 0.3) -> Shape:
     """The shape taken before moving into another: its vector negated and reduced (section 6), as far as ranges allow."""
     opposite = {name: within(name, -share * value) for name, value in base.numbers._asdict().items()}
-    return Shape(base.states, Numbers(**{**opposite, "width_m": base.numbers.width_m, "gaze": base.numbers.gaze}))
+    return base._replace(numbers=Numbers(**{**opposite, "width_m": base.numbers.width_m, "gaze": base.numbers.gaze}))
 
 
 def within(name: str, value: float) -> float:
@@ -180,8 +216,8 @@ def mirrored(base: Shape) -> Shape:
     states, numbers = base.states, base.numbers._asdict()
     flipped = {name: -numbers[name] for name in _changing_sign(states)}
     sides = {name: numbers[_other_side(name)] for name in numbers if "left" in name or "right" in name}
-    other = DOMINANT[1 - DOMINANT.index(states.dominant)]
-    return Shape(states._replace(dominant=other), Numbers(**{**numbers, **flipped, **sides}))
+    other = {LEFT_FOOT: RIGHT_FOOT, RIGHT_FOOT: LEFT_FOOT}.get(states.dominant, HEAVIER)
+    return base._replace(states=states._replace(dominant=other), numbers=Numbers(**{**numbers, **flipped, **sides}))
 
 
 def _changing_sign(states: States) -> Iterable[str]:

@@ -125,13 +125,18 @@ def minimise_cycles(body, plan, wishes, reach_weight, unknowns, bounds, search, 
 
 
 @njit(cache=True)
+def reach_distance_m(plan, figure, side):
+    """From a shoulder to its wrist's target."""
+    return vector.distance(figure.positions[SHOULDERS[side]], plan.wrist_m[side])
+
+
+@njit(cache=True)
 def out_of_reach_m(body, plan, figure):
     """By how much the farther target lies beyond its arm, metres; 0 when both are within reach."""
     worst = 0.0
     for side in range(2):
         if plan.reaching[side]:
-            away = vector.distance(figure.positions[SHOULDERS[side]], plan.wrist_m[side])
-            worst = max(worst, away - arms.arm_length_m(body, side))
+            worst = max(worst, reach_distance_m(plan, figure, side) - arms.arm_length_m(body, side))
     return worst
 
 

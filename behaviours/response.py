@@ -1,0 +1,232 @@
+"""The dynamic response (thesis 4.1.2, after Zordan et al. 2005): contact, the blow, and the body under physics.
+
+Contact is a matter of geometry, never of the predicted time: the ball is swept against the body's capsules between two ticks. From
+then on a rigid articulated body takes over in the pose and with the velocities it has, pulled towards the sustained pose.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from behaviours import feet as foot_plan
+from behaviours.components import (
+    NOBODY,
+    Blend,
+    Blow,
+    Character,
+    Feet,
+    Flight,
+    Phase,
+    Playback,
+    Posture,
+    Ragdoll,
+    Reaction,
+    Residual,
+    Sustained,
+    Threat,
+)
+from behaviours.inertialise import nothing_left
+from behaviours.playing import body_of, perception_clip_s
+from behaviours.reaction import enter
+from behaviours.seams import shown
+from behaviours.timing import TICK_S
+from engine.body.kinematics import joints_of
+from engine.body.skeleton import JOINTS, Pose
+from engine.core.schedule import Stage, system
+from engine.maths import quaternion, vector
+from engine.physics import impact, ragdoll
+
+GUARDED = (Phase.STARTLE, Phase.PROTECT, Phase.HOLD)  # in these the sustained pose is what the servos hold
+NEAR_M = 1.5  # a ball farther from the pelvis than its own size plus this meets nobody
+
+
+@system(Stage.SIMULATE, reads=(Character, Reaction, Sustained, Ragdoll, Blow, Flight), writes=(Ragdoll, Blow, Flight))
+def step_bodies(world, tick):
+    """Whoever was struck is stepped by the physics, tracked towards the sustained pose; blows under way are dealt."""
+    response = world.assets.settings.response
+    doll, s = world[Ragdoll], world[Sustained]
+    for row in world.rows(Ragdoll, Character):
+        if not doll.active[row]:
+            continue
+        model = world.assets.models[int(world[Character].body[row])]
+        target = Pose(s.root_m[row].copy(), s.rotations[row].copy())
+        pushes = deal_blow(world, row)
+        down = world[Reaction].phase[row] == Phase.DOWN
+        strength = response.stiffness * (response.down_share if down else 1.0)
+        doll.state[row] = ragdoll.step(
+            model, doll.state[row], target, strength, response.damping, TICK_S, pushes
+        )
+        carry_ball(world, row, model)
+
+
+def deal_blow(world, row: int) -> tuple[ragdoll.Push, ...]:
+    """The body's side of the blow under way, and this tick's share of it to the ball."""
+    b = world[Blow]
+    if b.ball[row] == NOBODY:
+        return ()
+    push = ragdoll.Push(
+        int(b.joint[row]), b.place_m[row].copy(), b.impulse_Ns[row].copy(), float(b.elapsed_s[row]), float(b.lasts_s[row])
+    )
+    if world.alive(int(b.ball[row])):
+        share = ragdoll.share_in(push, push.since_s, push.since_s + TICK_S)
+        f, ball = world[Flight], world.row(int(b.ball[row]))
+        f.velocity_mps[ball] -= share * push.impulse_Ns / f.mass_kg[ball]
+        f.spin_radps[ball] += share * b.turning_Nms[row] / (impact.HOLLOW * f.mass_kg[ball] * f.radius_m[ball] ** 2)
+    b.elapsed_s[row] += TICK_S
+    return (push,)
+
+
+def carry_ball(world, row: int, model) -> None:
+    """While it presses, the ball stays on the place it touches; then it is free again."""
+    b, f = world[Blow], world[Flight]
+    if b.ball[row] == NOBODY:
+        return
+    if world.alive(int(b.ball[row])):
+        ball = world.row(int(b.ball[row]))
+        f.before_m[ball] = f.position_m[ball]
+        f.before_turned[ball] = f.turned[ball]
+        positions, orientations = joints_of(body_of(world, row), ragdoll.pose_of(model, world[Ragdoll].state[row]))
+        joint = int(b.joint[row])
+        touch = vector.add(positions[joint], quaternion.rotate(orientations[joint], b.place_m[row]))
+        f.position_m[ball] = vector.along(touch, b.normal[row], f.radius_m[ball])
+        f.held[ball] = b.elapsed_s[row] < b.lasts_s[row]
+    if b.elapsed_s[row] >= b.lasts_s[row]:
+        b.ball[row] = NOBODY
+
+
+@system(
+    Stage.SETTLE,
+    reads=(Posture, Character, Flight, Reaction, Playback, Ragdoll, Blow, Sustained, Feet, Residual, Threat, Blend),
+    writes=(Reaction, Ragdoll, Blow, Sustained, Feet, Residual, Flight, Threat),
+)
+def meet_balls(world, tick):
+    """Every ball against every body, between the last tick and this one."""
+    f, p = world[Flight], world[Posture]
+    for ball in world.rows(Flight):
+        for row in world.rows(Posture, Character):
+            reach_m = f.radius_m[ball] + NEAR_M + vector.distance(f.before_m[ball], f.position_m[ball])
+            if f.held[ball] or vector.distance(f.position_m[ball], p.root_m[row]) > reach_m:
+                continue
+            now, before = shown(world, row)
+            body = body_of(world, row)
+            hit = impact.first_hit(
+                world.assets.capsules[int(world[Character].body[row])],
+                joints_of(body, before),
+                joints_of(body, now),
+                f.before_m[ball],
+                f.position_m[ball],
+                float(f.radius_m[ball]),
+            )
+            if hit is not None:
+                strike(world, int(row), int(ball), hit, tick)
+
+
+def strike(world, row: int, ball: int, hit: impact.Hit, tick: int) -> None:
+    """A contact: the impulse, what it does to the ball, and, unless it is a mere touch, to the body."""
+    response = world.assets.settings.response
+    model = world.assets.models[int(world[Character].body[row])]
+    now, before = shown(world, row)
+    simulated = world[Ragdoll].active[row] and world[Reaction].phase[row] in (Phase.RESPOND, Phase.DOWN)
+    state = world[Ragdoll].state[row] if simulated else ragdoll.start(model, now, before, TICK_S)
+    thrown = ball_at(world, ball, place_in_world(world, row, hit), hit.normal)
+    material = impact.Material(response.restitution, response.friction)
+    impulse = impact.exchange(model, state, thrown, hit, material)
+    if impulse is None:
+        return
+    size_Ns = vector.length(impulse.impulse_Ns)
+    hard = size_Ns >= response.least_Ns
+    at_s = (tick - 1 + hit.share) * TICK_S
+    world.emit(
+        "contact" if hard else "touch",
+        world.entity(row),
+        at_s=at_s,
+        ball=world.entity(ball),
+        part=hit.part,
+        joint=JOINTS[hit.joint],
+        impulse_Ns=size_Ns,
+        approach_mps=impulse.approach_mps,
+        late_s=lateness_s(world, row, ball, at_s, hit),
+    )
+    world[Threat].spent[ball] = True
+    place_ball(world, ball, thrown)
+    if not hard:
+        turn_ball(world, ball, impact.ball_after(thrown, impulse))
+        return
+    if not simulated:
+        begin_response(world, row, tick, state)
+    deal(world, row, ball, model, thrown, impulse, hit)
+
+
+def place_in_world(world, row: int, hit: impact.Hit):
+    """The place that was hit, on the body as it is shown now."""
+    positions, orientations = joints_of(body_of(world, row), shown(world, row)[0])
+    return vector.add(positions[hit.joint], quaternion.rotate(orientations[hit.joint], hit.place_m))
+
+
+def ball_at(world, ball: int, touch_m, normal) -> impact.Ball:
+    """The ball touching there."""
+    f = world[Flight]
+    return impact.Ball(
+        float(f.mass_kg[ball]),
+        float(f.radius_m[ball]),
+        vector.along(touch_m, normal, float(f.radius_m[ball])),
+        tuple(f.velocity_mps[ball]),
+        tuple(f.spin_radps[ball]),
+    )
+
+
+def place_ball(world, ball: int, at: impact.Ball) -> None:
+    world[Flight].position_m[ball] = at.centre_m
+
+
+def turn_ball(world, ball: int, after: impact.Ball) -> None:
+    """Gives the ball the velocity and spin that the impact has left it."""
+    world[Flight].velocity_mps[ball] = after.velocity_mps
+    world[Flight].spin_radps[ball] = after.spin_radps
+
+
+def deal(world, row: int, ball: int, model, thrown: impact.Ball, impulse: impact.Impulse, hit: impact.Hit) -> None:
+    """Starts a blow over the contact time; a second one at the same time, or one without duration, is dealt at once."""
+    b, response = world[Blow], world.assets.settings.response
+    if b.ball[row] != NOBODY or response.contact_s <= 0.0:
+        world[Ragdoll].state[row] = impact.body_after(model, world[Ragdoll].state[row], impulse)
+        turn_ball(world, ball, impact.ball_after(thrown, impulse))
+        return
+    b.ball[row] = world.entity(ball)
+    b.joint[row], b.place_m[row] = impulse.joint, impulse.place_m
+    b.impulse_Ns[row], b.turning_Nms[row] = -impulse.impulse_Ns, impulse.turning_Nms
+    b.normal[row] = hit.normal
+    b.elapsed_s[row], b.lasts_s[row] = 0.0, response.contact_s
+    world[Flight].held[ball] = True
+
+
+def begin_response(world, row: int, tick: int, state: np.ndarray) -> None:
+    """The physics takes over, as the body is and moves. Unprepared, it tries to keep the pose it was struck in."""
+    r, s = world[Reaction], world[Sustained]
+    now, _ = shown(world, row)
+    if r.phase[row] not in GUARDED:
+        r.clip_s[row] = perception_clip_s(world, row, tick)
+        s.root_m[row], s.rotations[row] = now
+        r.contact[row] = tick
+    world[Ragdoll].state[row] = state
+    world[Ragdoll].active[row] = True
+    for side in range(2):
+        foot_plan.let_go(world[Feet], row, side)
+    nothing_left(world[Residual], row)
+    r.struck[row] = True
+    enter(world, row, tick, Phase.RESPOND)
+
+
+def lateness_s(world, row: int, ball: int, at_s: float, hit: impact.Hit) -> float:
+    """Contact time against plan: how much later than planned, once the flight that the surface saved is counted in.
+
+    The plan brings the ball's centre to the target; the surface that it met stands before that, by so many metres of flight.
+    """
+    r, t = world[Reaction], world[Threat]
+    if r.threat[row] != world.entity(ball):
+        return 0.0
+    f = world[Flight]
+    centre = vector.along(hit.point_m, hit.normal, float(f.radius_m[ball]))
+    saved_m = vector.inner(vector.subtract(t.line_m[ball], centre), t.tangent[ball])
+    speed = max(vector.length(f.velocity_mps[ball]), 1e-6)
+    return at_s + saved_m / speed - float(t.contact[ball]) * TICK_S
