@@ -15,14 +15,16 @@ NEAR_M, FAR_M = 0.1, 120.0
 MIN_DISTANCE_M, MAX_DISTANCE_M = 0.3, 60.0
 MAX_PITCH_RAD = math.radians(88.0)
 
+Point = tuple[float, float, float]
+
 
 @dataclass(frozen=True)
 class Camera:
     """A perspective eye. World metres, Z up."""
 
-    eye: tuple[float, float, float] = (3.6, 2.2, 1.6)
-    target: tuple[float, float, float] = (0.0, 0.0, 0.95)
-    up: tuple[float, float, float] = (0.0, 0.0, 1.0)
+    eye: Point = (3.6, 2.2, 1.6)
+    target: Point = (0.0, 0.0, 0.95)
+    up: Point = (0.0, 0.0, 1.0)
     fov_rad: float = math.radians(34.0)  # vertical
 
     def axes(self) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
@@ -42,7 +44,7 @@ class Camera:
 def orbit_camera(target, azimuth_deg: float, elevation_deg: float, distance_m: float, **more) -> Camera:
     """A camera seen from its target: azimuth 0 stands on +X looking back, 90 on +Y; elevation above the horizon."""
     back = _direction(math.radians(azimuth_deg), math.radians(elevation_deg))
-    return Camera(eye=tuple(np.add(target, distance_m * back)), target=tuple(map(float, target)), **more)
+    return Camera(eye=_point(np.add(target, distance_m * back)), target=_point(target), **more)
 
 
 def orbit(camera: Camera, yaw_rad: float, pitch_rad: float) -> Camera:
@@ -51,7 +53,7 @@ def orbit(camera: Camera, yaw_rad: float, pitch_rad: float) -> Camera:
     distance_m = np.linalg.norm(back)
     azimuth = math.atan2(back[1], back[0]) + yaw_rad
     elevation = np.clip(math.asin(np.clip(back[2] / distance_m, -1, 1)) + pitch_rad, -MAX_PITCH_RAD, MAX_PITCH_RAD)
-    return replace(camera, eye=tuple(np.add(camera.target, distance_m * _direction(azimuth, elevation))))
+    return replace(camera, eye=_point(np.add(camera.target, distance_m * _direction(azimuth, elevation))))
 
 
 def pan(camera: Camera, dx_px: float, dy_px: float, size_px) -> Camera:
@@ -65,12 +67,12 @@ def zoom(camera: Camera, steps: float) -> Camera:
     """Towards the target for positive steps, an eighth of the way each."""
     distance_m = np.clip(camera.distance_m * math.exp(-0.13 * steps), MIN_DISTANCE_M, MAX_DISTANCE_M)
     back = np.subtract(camera.eye, camera.target) / camera.distance_m
-    return replace(camera, eye=tuple(np.add(camera.target, distance_m * back)))
+    return replace(camera, eye=_point(np.add(camera.target, distance_m * back)))
 
 
 def moved(camera: Camera, by_m) -> Camera:
     """The whole camera shifted, looking the same way."""
-    return replace(camera, eye=tuple(np.add(camera.eye, by_m)), target=tuple(np.add(camera.target, by_m)))
+    return replace(camera, eye=_point(np.add(camera.eye, by_m)), target=_point(np.add(camera.target, by_m)))
 
 
 def follow(camera: Camera, point_m, passed_s: float, half_life_s: float = 0.25) -> Camera:
@@ -99,7 +101,7 @@ def frame_all(camera: Camera, points_m, size_px, margin: float = 0.08) -> Camera
     across, upwards = (_centred(x, depth - eye_depth) for x in laterals)
     eye = across * right + upwards * up + eye_depth * forward
     middle_depth = 0.5 * (np.min(depth) + np.max(depth))
-    return replace(camera, eye=tuple(eye), target=tuple(eye + (middle_depth - eye_depth) * forward))
+    return replace(camera, eye=_point(eye), target=_point(eye + (middle_depth - eye_depth) * forward))
 
 
 def _centred(lateral: np.ndarray, depth: np.ndarray) -> float:
@@ -159,3 +161,8 @@ def ray_through(camera: Camera, pixel, size_px) -> tuple[np.ndarray, np.ndarray]
 def _direction(azimuth_rad: float, elevation_rad: float) -> np.ndarray:
     level = math.cos(elevation_rad)
     return np.array([level * math.cos(azimuth_rad), level * math.sin(azimuth_rad), math.sin(elevation_rad)])
+
+
+def _point(xyz) -> Point:
+    x, y, z = xyz
+    return (float(x), float(y), float(z))

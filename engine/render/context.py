@@ -9,7 +9,7 @@ per window unit), `poll() -> list[Event]`, `present(framebuffer)`, `closing`, `s
 
 from __future__ import annotations
 
-from typing import Protocol
+from typing import Any, Protocol
 
 import moderngl
 
@@ -24,10 +24,13 @@ class Context(Protocol):
     """What `make_context` gives back, with or without a screen."""
 
     gl: moderngl.Context
-    size_px: tuple[int, int]
-    scale: float
-    closing: bool
 
+    @property
+    def size_px(self) -> tuple[int, int]: ...
+    @property
+    def scale(self) -> float: ...
+    @property
+    def closing(self) -> bool: ...
     def poll(self) -> list[Event]: ...
     def present(self, framebuffer: moderngl.Framebuffer) -> None: ...
     def set_title(self, title: str) -> None: ...
@@ -92,10 +95,8 @@ class Offscreen:
 def create_gl(backend: str | None = None) -> moderngl.Context:
     """A moderngl context on EGL (`backend="egl"`) or the current window; EnvironmentTrouble says what to install."""
     try:
-        if backend:
-            gl = moderngl.create_context(standalone=True, backend=backend, require=GL_VERSION_CODE)
-        else:
-            gl = moderngl.create_context(require=GL_VERSION_CODE)
+        options: dict[str, Any] = {"standalone": True, "backend": backend} if backend else {}
+        gl = moderngl.create_context(require=GL_VERSION_CODE, **options)
     except (
         Exception
     ) as trouble:  # moderngl raises bare Exception for a missing library, no device, or a version too old

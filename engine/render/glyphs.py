@@ -5,6 +5,8 @@ from __future__ import annotations
 import numpy as np
 from PIL import Image, ImageDraw, ImageFont
 
+from engine.core.errors import EnvironmentTrouble
+
 # what Pillow's own font can draw, and the nearest to what it cannot
 LETTERS = "".join(chr(code) for code in range(32, 127)) + "°"
 REPLACED = str.maketrans(
@@ -18,6 +20,8 @@ class GlyphAtlas:
 
     def __init__(self, font_px: int):
         self.font = ImageFont.load_default(max(int(font_px), 6))
+        if not isinstance(self.font, ImageFont.FreeTypeFont):
+            raise EnvironmentTrouble("NO_FONT", "Pillow was built without FreeType, so it cannot write labels")
         ascent, descent = self.font.getmetrics()
         self.halo_px = max(1, round(font_px / 7))
         self.line_px = ascent + descent
@@ -30,8 +34,8 @@ class GlyphAtlas:
         return sum(self.advance_px[letter] for letter in drawable(text))
 
     def laid_out(self, text: str, x_px: float, y_px: float, colour) -> np.ndarray:
-        """(N, 12): each letter's box on the picture, its box in the atlas (0..1), its colour. x, y: the line's top left."""
-        rows, pen = [], round(x_px)
+        """(N, 12): each letter's box on the picture, its box in the atlas (0..1), its colour. x, y: its top left."""
+        rows, pen = [], float(round(x_px))
         height, width = self.picture.shape[:2]
         cell_width, cell_height = self.cell_px
         for letter in drawable(text):

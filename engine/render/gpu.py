@@ -15,8 +15,9 @@ SQUARE = np.array([(-1, -1), (1, -1), (-1, 1), (1, 1)], "f4")
 def make_pass(gl: moderngl.Context, name: str, **defines: int) -> moderngl.Program:
     """A program that reads the frame's uniform block."""
     program = make_program(gl, name, **defines)
-    if "Frame" in program:
-        program["Frame"].binding = FRAME_BINDING
+    block = program.get("Frame", None)
+    if isinstance(block, moderngl.UniformBlock):
+        block.binding = FRAME_BINDING
     return program
 
 

@@ -146,7 +146,7 @@ def _girdle(body: Body, side: int, size: float) -> Part:
 
 
 def _head(body: Body, size: float) -> list[Part]:
-    """Skull, face and jaw with brow, nose, chin and ears, and a dark visor for eyes: it must be plain where it looks."""
+    """Skull, face and jaw with brow, nose, chin and ears, a dark visor for eyes: it must be plain where it looks."""
     crown, size = body.head_top_m, 1.04 * size  # a little large, as sculptors make it: it carries the expression
 
     def at(forward: float, left: float, below: float) -> np.ndarray:

@@ -43,7 +43,7 @@ class Renderer:
         self.frame = self.gl.buffer(reserve=FRAME_BYTES, dynamic=True)
         self.figures, self.balls, self.ground = FigurePass(self.gl), BallPass(self.gl), GroundPass(self.gl)
         self.decals, self.marks, self.labels = DecalPass(self.gl), MarkPass(self.gl), LabelPass(self.gl)
-        self.shadow_maps: dict[int, moderngl.Framebuffer] = {}
+        self.shadow_maps: dict[int, tuple[moderngl.Framebuffer, moderngl.Texture]] = {}
         self.targets: Targets | None = None
         check_gl(self.gl, "setting up the renderer")
 
@@ -56,8 +56,7 @@ class Renderer:
         shadow = fit_shadow(scene)
         self._upload(scene, camera, targets.size_px, shadow)
         self.frame.bind_to_uniform_block(FRAME_BINDING)
-        shadow_map = self._draw_shadow(shadow)
-        shadow_map.depth_attachment.use(SHADOW_UNIT)
+        self._draw_shadow(shadow).use(SHADOW_UNIT)
         self._draw_solid(targets)
         self._draw_marks(targets)
         self._draw_ghosts(targets)
@@ -86,16 +85,17 @@ class Renderer:
         self.marks.upload(scene, self.context.scale)
         self.labels.upload(scene, camera, size_px, self.context.scale)
 
-    def _draw_shadow(self, shadow: Shadow | None) -> moderngl.Framebuffer:
-        shadow_map = self._shadow_map(shadow.size_px if shadow else 512)
-        shadow_map.use()
-        shadow_map.clear(depth=1.0)
+    def _draw_shadow(self, shadow: Shadow | None) -> moderngl.Texture:
+        """The depths that the key light sees, all far where nothing casts a shadow."""
+        target, depths = self._shadow_map(shadow.size_px if shadow else 512)
+        target.use()
+        target.clear(depth=1.0)
         if shadow:
             self.gl.enable_only(moderngl.DEPTH_TEST)
             self.gl.depth_func = "<"
             self.figures.draw_shadow()
             self.balls.draw_shadow()
-        return shadow_map
+        return depths
 
     def _draw_solid(self, targets: Targets) -> None:
         targets.sampled.use()
@@ -109,7 +109,7 @@ class Renderer:
 
     def _draw_marks(self, targets: Targets) -> None:
         self.gl.enable_only(moderngl.DEPTH_TEST | moderngl.BLEND)
-        self.gl.blend_func = moderngl.DEFAULT_BLENDING
+        self.gl.blend_func = (moderngl.SRC_ALPHA, moderngl.ONE_MINUS_SRC_ALPHA)
         targets.sampled.depth_mask = False
         self.decals.draw_contacts()
         self.marks.draw_patches()
@@ -144,12 +144,12 @@ class Renderer:
         self.gl.enable_only(moderngl.BLEND)
         self.labels.draw()
 
-    def _shadow_map(self, size_px: int) -> moderngl.Framebuffer:
+    def _shadow_map(self, size_px: int) -> tuple[moderngl.Framebuffer, moderngl.Texture]:
         if size_px not in self.shadow_maps:
             depth = self.gl.depth_texture((size_px, size_px))
             depth.compare_func, depth.repeat_x, depth.repeat_y = "<=", False, False
             depth.filter = (moderngl.LINEAR, moderngl.LINEAR)
-            self.shadow_maps[size_px] = self.gl.framebuffer(depth_attachment=depth)
+            self.shadow_maps[size_px] = (self.gl.framebuffer(depth_attachment=depth), depth)
         return self.shadow_maps[size_px]
 
     def _targets_of(self, size_px: tuple[int, int]) -> Targets:

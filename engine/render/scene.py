@@ -7,7 +7,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from engine.body.skeleton import Body
+from engine.body.skeleton import ANKLES, HEAD, LEFT, RIGHT, TOES, WRISTS, Body
+from engine.maths import quaternion
 
 if TYPE_CHECKING:
     from engine.core.debug_draw import DebugDraw
@@ -22,7 +23,7 @@ SIMULATED_RED: Colour = (0.84, 0.17, 0.16)
 BLEND_GREY: Colour = (0.55, 0.57, 0.60)
 PERSON: Colour = (0.90, 0.87, 0.83)  # the one who lives: warm porcelain
 
-GOOD_GREEN: Colour = (0.16, 0.62, 0.36)
+_FLESH_M = 0.07  # a body's surface is about this far from its joints and tips
 
 
 @dataclass(frozen=True)
@@ -80,14 +81,25 @@ class Scene:
 
 
 def extent_points(scene: Scene) -> np.ndarray:
-    """Points (N, 3) that a camera must see to see all figures and balls, surfaces included."""
+    """Points (N, 3) that a camera must see to see all figures and balls, surfaces included; none below the floor."""
     points = [np.zeros((0, 3))]
-    for figure in scene.figures:
-        points += [figure.positions + reach for reach in 0.13 * np.vstack([np.eye(3), -np.eye(3)])]
-    for ball in scene.balls:
-        points += [
-            np.asarray(ball.position_m, float) + reach for reach in ball.radius_m * np.vstack([np.eye(3), -np.eye(3)])
-        ]
-    points = np.vstack(points)
-    points[:, 2] = np.maximum(points[:, 2], 0.0)
-    return points
+    points += [_surrounded(tips_of(figure), _FLESH_M) for figure in scene.figures]
+    points += [_surrounded(np.reshape(ball.position_m, (1, 3)), ball.radius_m) for ball in scene.balls]
+    around = np.vstack(points)
+    return np.column_stack([around[:, :2], np.maximum(around[:, 2], 0.0)])
+
+
+def tips_of(figure: Figure) -> np.ndarray:
+    """Joints, crown, fingertips and soles of a figure (N, 3), world metres."""
+    body, tips = figure.body, [(HEAD, figure.body.head_top_m)]
+    for side in (LEFT, RIGHT):
+        tips += [(WRISTS[side], body.fingertip_m[side])]
+        tips += [(ANKLES[side], point) for point in body.sole_m[side, :4]]
+        tips += [(TOES[side], point) for point in body.sole_m[side, 4:]]
+    ends = [np.add(figure.positions[j], quaternion.rotate(figure.orientations[j], point)) for j, point in tips]
+    return np.vstack([figure.positions, ends])
+
+
+def _surrounded(points_m: np.ndarray, radius_m: float) -> np.ndarray:
+    """Each point's six neighbours at a distance along the axes."""
+    return (points_m[:, None, :] + radius_m * np.vstack([np.eye(3), -np.eye(3)])).reshape(-1, 3)

@@ -178,5 +178,5 @@ def _triangles(inside: np.ndarray, rows: np.ndarray) -> np.ndarray:
         around = np.stack([cell[:, :-1, :-1], cell[:, 1:, :-1], cell[:, 1:, 1:], cell[:, :-1, 1:]], axis=-1)
         leaves, enters = here[:-1] & ~here[1:], ~here[:-1] & here[1:]
         quads += [around[leaves], around[enters][:, ::-1]]
-    quads = np.concatenate(quads)
-    return np.concatenate([quads[:, [0, 1, 2]], quads[:, [0, 2, 3]]])
+    corners = np.concatenate(quads)
+    return np.concatenate([corners[:, [0, 1, 2]], corners[:, [0, 2, 3]]])

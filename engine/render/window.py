@@ -100,7 +100,7 @@ class Window:
         glfw.set_mouse_button_callback(handle, self._on_button)
         glfw.set_scroll_callback(handle, lambda _, x, y: push(ev.Scroll(x, y, *self._cursor_px)))
         glfw.set_framebuffer_size_callback(handle, lambda _, width, height: push(ev.Resize(width, height)))
-        glfw.set_drop_callback(handle, lambda _, paths: push(ev.Drop(tuple(paths))))
+        glfw.set_drop_callback(handle, self._on_drop)  # type: ignore[arg-type]
         glfw.set_window_close_callback(handle, lambda _: push(ev.Close()))
 
     def _waiting_push(self, event: ev.Event) -> None:
@@ -110,6 +110,9 @@ class Window:
         name = _KEY_NAMES.get(key) or glfw.get_key_name(key, scancode)
         if name:
             self._waiting_push(ev.Key(name.lower(), _ACTIONS[action], modifiers & _MODIFIERS))
+
+    def _on_drop(self, _, paths) -> None:
+        self._waiting_push(ev.Drop(tuple(paths)))
 
     def _on_move(self, _, x: float, y: float) -> None:
         place = self._in_pixels(x, y)
@@ -162,6 +165,6 @@ def _open(size: tuple[int, int], title: str):
 
 def _why() -> str:
     """glfw's own last words."""
-    code, said = glfw.get_error()
-    text = said.decode("utf-8", "replace") if isinstance(said, bytes) else said
+    code, said = glfw.get_error()  # bytes, whatever its stub says
+    text = said.decode("utf-8", "replace") if said else ""  # type: ignore[attr-defined]
     return text or f"glfw error {code}"

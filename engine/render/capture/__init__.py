@@ -1,7 +1,7 @@
 """Pictures that leave the house: films, folders, filmstrips. A final name never holds half a file.
 
-Each writer takes frames as (H, W, 3) uint8 arrays, top row first, from any iterable; it writes beside the target, checks
-what it wrote, and only then gives it its name.
+Each writer takes frames as (H, W, 3) uint8 arrays, top row first, from any iterable; it writes beside the target,
+checks what it wrote, and only then gives it its name.
 """
 
 from engine.render.capture.files import check_output

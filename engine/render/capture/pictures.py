@@ -42,7 +42,7 @@ def write_gif(path, frames: Iterable[np.ndarray], fps: float, progress: Callable
 
 
 def gif_delays_ms(count: int, fps: float) -> list[int]:
-    """Whole hundredths of a second that never drift from the true time; at least two: browsers slow shorter ones down."""
+    """Whole hundredths of a second that never drift from the true time; at least two: browsers slow shorter ones."""
     ends = np.round(np.arange(1, count + 1) * 100.0 / fps).astype(int)
     return [int(10 * max(delay, 2)) for delay in np.diff(ends, prepend=0)]
 

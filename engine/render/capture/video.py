@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import contextlib
 import functools
+import itertools
 import shutil
 import signal
 import subprocess
 import tempfile
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Iterator
 from pathlib import Path
 
 import numpy as np
@@ -72,7 +74,7 @@ def even_sized(frame: np.ndarray) -> np.ndarray:
     return np.pad(frame, ((0, height % 2), (0, width % 2), (0, 0)), mode="edge")
 
 
-def checked_frames(frames: Iterable[np.ndarray], where: str) -> Iterable[np.ndarray]:
+def checked_frames(frames: Iterable[np.ndarray], where: str) -> Iterator[np.ndarray]:
     """The frames, each of the first one's size; BadInput for anything else, or for none."""
     shape = None
     for number, frame in enumerate(frames):
@@ -92,30 +94,40 @@ def checked_frames(frames: Iterable[np.ndarray], where: str) -> Iterable[np.ndar
 
 
 def _encode(ffmpeg: str, part: Path, frames, fps: float, where: str, progress) -> int:
-    """Feeds ffmpeg; returns the number of frames it took."""
-    process, count, broken = None, 0, False
+    """Runs ffmpeg over all frames; returns how many it took."""
+    checked = checked_frames(frames, where)
+    first = next(checked)
     with tempfile.TemporaryFile() as complaints:
+        process = _start(ffmpeg, part, even_sized(first).shape, fps, complaints)
         try:
-            for frame in checked_frames(frames, where):
-                picture = even_sized(frame)
-                process = process or _start(ffmpeg, part, picture.shape, fps, complaints)
-                process.stdin.write(np.ascontiguousarray(picture).data)
-                count += 1
-                if progress:
-                    progress(count)
-            process.stdin.close()
-        except BrokenPipeError:
-            broken = True
+            count = _feed(process, itertools.chain((first,), checked), progress)
         except BaseException:
-            if process:
-                process.kill()
-                process.wait()
+            process.kill()
+            process.wait()
             raise
         code = process.wait()
         complaints.seek(0)
         said = complaints.read().decode("utf-8", "replace")
-    if broken or code != 0:
+    if count is None or code != 0:
         raise _trouble(code, said, where)
+    return count
+
+
+def _feed(process: subprocess.Popen, frames: Iterable[np.ndarray], progress) -> int | None:
+    """Writes every frame into the pipe and closes it; None where ffmpeg stopped listening."""
+    pipe, count = process.stdin, 0
+    assert pipe is not None
+    try:
+        for frame in frames:
+            pipe.write(np.ascontiguousarray(even_sized(frame)).data)
+            count += 1
+            if progress:
+                progress(count)
+        pipe.close()
+    except BrokenPipeError:
+        with contextlib.suppress(BrokenPipeError):
+            pipe.close()
+        return None
     return count
 
 

@@ -60,7 +60,8 @@ class LabelPass:
         if not scene.captions:
             return []
         atlas, _ = self._atlas(round(CAPTION_PX * scale))
-        margin, placed, used = MARGIN_PX * scale, [], {}
+        margin, placed = MARGIN_PX * scale, []
+        used: dict[str, int] = {}
         for corner, text in scene.captions:
             lines = text.splitlines()
             row = used.get(corner, 0)

@@ -46,9 +46,9 @@ class MarkPass:
         strokes += [row for arrow in draw.arrows for row in _arrow(arrow.points_m, arrow.colour)]
         strokes += [row for polygon in draw.polygons for row in _outline(polygon.points_m, polygon.colour)]
         strokes += [row for balance in scene.balances for row in _balance_strokes(balance)]
-        strokes = np.array(strokes, "f4").reshape(-1, 12)
-        strokes[:, 10:] *= scale
-        self.strokes.upload(strokes)
+        bars = np.array(strokes, "f4").reshape(-1, 12)
+        bars[:, 10:] *= scale
+        self.strokes.upload(bars)
         dots = [(*point.position_m, *point.colour, point.radius_m) for point in draw.points]
         self.dots.upload(np.array(dots, "f4").reshape(-1, 8))
         fans = [_fan(polygon.points_m, polygon.colour * (1, 1, 1, 0.35)) for polygon in draw.polygons if polygon.filled]
