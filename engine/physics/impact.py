@@ -7,6 +7,7 @@ as a half-sine force over the contact time (spec A8): the same shares go to both
 
 from __future__ import annotations
 
+import math
 from typing import NamedTuple
 
 import mujoco
@@ -194,26 +195,43 @@ def ball_mobility(mass_kg: float, radius_m: float, hollow: float, normal: np.nda
 
 @njit(cache=True)
 def contact_impulse(gives, gap_velocity, normal, restitution, friction):
-    """The impulse on the ball that takes the approach u_n to -e u_n exactly, within Coulomb's cone.
+    """The impulse on the ball that takes the approach u_n to -e u_n exactly, within Coulomb's cone, and makes no energy.
 
     gives (3, 3): mobility of both sides together; u' = u + gives j. If the surfaces can hold each other (|j_t| <= mu j_n), the
-    slip ends, else they slide along the way that holding would have pushed, with j_t = mu j_n, and j_n from the normal's equation.
+    slip ends, else they slide along the way that holding would have pushed, with j_t = mu j_n; j_n from the normal's equation.
+    Newton's restitution can make energy where joints couple normal and tangent (Kane and Levinson 1985, Dynamics, section 5.9):
+    then there is just so much less friction that it does not.
     """
     n = (normal[0], normal[1], normal[2])
     u = (gap_velocity[0], gap_velocity[1], gap_velocity[2])
-    u_n = vector.inner(u, n)
-    slip = vector.reject(u, n)
-    wanted = vector.along(vector.scale(slip, -1.0), n, -(1.0 + restitution) * u_n)
-    j = _solve3(gives, wanted)
-    j_n = vector.inner(j, n)
-    j_t = vector.reject(j, n)
-    if j_n > 0.0 and vector.length(j_t) <= friction * j_n:
+    wanted_n = -(1.0 + restitution) * vector.inner(u, n)
+    holding = _solve3(gives, vector.along(vector.scale(vector.reject(u, n), -1.0), n, wanted_n))
+    across, pressing = vector.reject(holding, n), vector.inner(holding, n)
+    way = vector.unit(across, (0.0, 0.0, 0.0))
+    ratio = friction if pressing <= 0.0 else min(friction, vector.length(across) / pressing)
+    j, gained = _with_friction(gives, u, n, way, ratio, wanted_n)
+    if gained <= 0.0:
         return j
-    way = vector.along(n, vector.unit(j_t, (0.0, 0.0, 0.0)), friction)
-    given = vector.inner(n, _times(gives, way))
-    if given <= 0.0:  # a lever so odd that friction would pull the pair apart: then it does nothing
-        way, given = n, vector.inner(n, _times(gives, n))
-    return vector.scale(way, -(1.0 + restitution) * u_n / given)
+    low, high = 0.0, ratio
+    for _ in range(60):
+        middle = 0.5 * (low + high)
+        if _with_friction(gives, u, n, way, middle, wanted_n)[1] <= 0.0:
+            low = middle
+        else:
+            high = middle
+    return _with_friction(gives, u, n, way, low, wanted_n)[0]
+
+
+@njit(cache=True)
+def _with_friction(gives, u, n, way, ratio, wanted_n):
+    """The impulse along n + ratio * way that changes the normal velocity as wanted, and the kinetic energy it makes."""
+    towards = vector.along(n, way, ratio)
+    answer = _times(gives, towards)
+    normal_answer = vector.inner(n, answer)
+    if normal_answer <= 0.0:  # so much friction would jam rather than part them
+        return vector.scale(n, 0.0), math.inf
+    size = wanted_n / normal_answer
+    return vector.scale(towards, size), size * (vector.inner(u, towards) + 0.5 * size * vector.inner(towards, answer))
 
 
 @njit(cache=True)

@@ -17,9 +17,11 @@ import numpy as np
 from engine.body.anthropometry import joints_at_identity, point_inertia
 from engine.body.capsules import CAPSULES, body_capsules
 from engine.body.skeleton import JOINT_COUNT, JOINTS, PARENT, SOLE_POINTS, Body
+from engine.maths.ballistics import GRAVITY_MPS2
 
 SUB_STEPS_HZ = 480
 SOLE_BEAD_M = 0.012  # the sole's contact points are small beads that touch the sole's plane from inside
+FOOT_LIFT_M = 0.004
 FLOOR_FRICTION = 0.8  # a shoe on a sports floor: 0.7 to 1.1 (EN 14904 asks for 80 - 110 on its pendulum scale)
 
 # Greatest joint torques, N m for a man of 73 kg: isometric maxima of young men (Anderson, Madigan and Nussbaum 2007, J. Biomech. 40,
@@ -42,6 +44,7 @@ class RagdollModel:
     state_size: int
     positions: slice  # of a state: qpos, root (3,) then quaternions (J, 4)
     velocities: slice  # of a state: qvel, root linear (3,) world, then angular (J, 3), each in its own joint's frame
+    mass_kg: float
     inertia_kgm2: np.ndarray  # (J,) seen by each joint's servo
     strength_nm: np.ndarray  # (J,)
 
@@ -77,6 +80,7 @@ def _make(body, key):
         state_size=mujoco.mj_stateSize(m, kinds.mjSTATE_INTEGRATION),
         positions=slice(before, before + m.nq),
         velocities=slice(before + m.nq, before + m.nq + m.nv),
+        mass_kg=float(body.part_mass_kg.sum()),
         inertia_kgm2=servo_inertia_kgm2(body),
         strength_nm=_strength_nm(body),
     )
@@ -139,7 +143,7 @@ def xml_of(body: Body) -> str:
         [
             '<mujoco model="brace">',
             '  <compiler angle="radian" inertiafromgeom="false" boundmass="0" boundinertia="0" balanceinertia="false"/>',
-            f'  <option timestep="{1.0 / SUB_STEPS_HZ!r}" cone="elliptic" iterations="60" tolerance="1e-10">',
+            f'  <option timestep="{1.0 / SUB_STEPS_HZ!r}" gravity="{_text(GRAVITY_MPS2)}" cone="elliptic" iterations="60" tolerance="1e-10">',
             '    <flag autoreset="disable" eulerdamp="disable"/>',
             "  </option>",
             "  <default>",
@@ -169,12 +173,13 @@ def _inertial(body, j):
 
 
 def _geoms(body):
-    """Per joint, the shapes that may touch the floor: all capsules but the feet's, which stand on their soles' points."""
+    """Per joint, the shapes that may touch the floor: all capsules, and the soles' points that the feet stand on."""
     capsules = body_capsules(body)
     out = [[] for _ in range(JOINT_COUNT)]
     for name, j, a, b, r in zip(CAPSULES, *capsules, strict=True):
         if name.endswith(("_foot", "_toes")):
-            continue
+            # only for lying on their sides: standing is the sole points' business
+            a, b = a + [0.0, 0.0, FOOT_LIFT_M], b + [0.0, 0.0, FOOT_LIFT_M]
         if np.abs(b - a).max() < 1e-4:
             out[j].append(f'<geom name="{name}" type="sphere" pos="{_text(a)}" size="{_text([r])}"/>')
         else:

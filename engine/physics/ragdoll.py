@@ -13,6 +13,7 @@ import mujoco
 import numpy as np
 
 from engine.body.skeleton import JOINT_COUNT, PARENT, Pose
+from engine.maths import rotations
 from engine.maths.springs import half_sine
 from engine.physics import tracking
 from engine.physics.model import SUB_STEPS_HZ, RagdollModel
@@ -69,6 +70,7 @@ def step(
     m.opt.timestep = h
     body, target_rotations = model.body, np.ascontiguousarray(target.rotations, dtype=float)
     torque, armature = np.zeros(m.nv), np.zeros(m.nv)
+    momentum = _momentum(model)
     for k in range(count):
         tracking.drive(
             d.qpos, d.qvel, target_rotations, body.limit_low_rad, body.limit_high_rad,
@@ -79,6 +81,7 @@ def step(
         for push in pushes:
             _apply(model, push, push.since_s + k * h, h)
         mujoco.mj_step(m, d)
+        momentum = _balance(model, momentum, h)
         if trace is not None:
             trace[k] = tracking.part_velocities(PARENT, body.offset_m, body.part_com_m, d.qpos, d.qvel)
     d.qfrc_applied[:] = 0.0
@@ -100,6 +103,17 @@ def pose_of(model: RagdollModel, state: np.ndarray) -> Pose:
     qpos = state[model.positions]
     rotations = qpos[3:].reshape(JOINT_COUNT, 4)
     return Pose(qpos[:3].copy(), rotations / np.sqrt((rotations * rotations).sum(axis=1, keepdims=True)))
+
+
+def carried_on(model: RagdollModel, state: np.ndarray, dt_s: float) -> Pose:
+    """Where the body is a moment later (negative: earlier) by its velocities alone."""
+    pose = pose_of(model, state)
+    if dt_s == 0.0:
+        return pose
+    qvel = state[model.velocities]
+    spins = qvel[3:].reshape(JOINT_COUNT, 3)
+    turned = rotations.multiply(pose.rotations, rotations.from_rotation_vector(spins * dt_s))
+    return Pose(pose.root_m + qvel[:3] * dt_s, rotations.normalise(turned))
 
 
 def motion_of(model: RagdollModel, state: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
@@ -124,6 +138,23 @@ def _apply(model, push, from_s, h):
     mujoco.mj_comPos(m, d)
     place = place_in_world(model, push.joint, push.place_m)
     mujoco.mj_applyFT(m, d, np.asarray(push.impulse_Ns) * (share / h), np.zeros(3), place, push.joint + 1, d.qfrc_applied)
+
+
+def _momentum(model):
+    """(3,) the linear momentum of the body as the scratch data has it."""
+    return tracking.momentum(PARENT, model.body, model.data.qpos, model.data.qvel)
+
+
+def _balance(model, before, h):
+    """Makes a sub-step's change of momentum that of the forces that acted from outside, to rounding; returns the new momentum.
+
+    Stepping velocities first and places after them, the turning of the parts leaks momentum at second order in h. All outer
+    forces (floor, pushes, gravity) stand in the root's first three rows; what leaked goes back as a velocity of the whole.
+    """
+    m, d, mass = model.mujoco_model, model.data, model.mass_kg
+    wanted = before + h * (d.qfrc_constraint[:3] + d.qfrc_applied[:3] + mass * m.opt.gravity)
+    d.qvel[:3] += (wanted - _momentum(model)) / mass
+    return wanted
 
 
 def place_in_world(model: RagdollModel, joint: int, place_m: np.ndarray) -> np.ndarray:

@@ -128,3 +128,14 @@ def part_velocities(parent, offset_m, com_m, qpos, qvel):
         arm = quaternion.rotate(orientations[j], com_m[j])
         linear[j, 0], linear[j, 1], linear[j, 2] = vector.add(linear[j], vector.cross(angular[j], arm))
     return linear
+
+
+@njit(cache=True)
+def momentum(parent, body, qpos, qvel):
+    """(3,) linear momentum of the whole body, N s."""
+    velocities = part_velocities(parent, body.offset_m, body.part_com_m, qpos, qvel)
+    out = np.zeros(3)
+    for j in range(JOINT_COUNT):
+        for axis in range(3):
+            out[axis] += body.part_mass_kg[j] * velocities[j, axis]
+    return out
