@@ -9,6 +9,7 @@ from typing import Any, TypeVar
 
 from behaviours.scenario import CharacterSpec, Scenario, check_scenario, load_scenario
 from behaviours.simulation import Simulation, apply_command
+from demos.kernels import forget_stale
 from demos.scenarios import find_scenario
 from engine.clips.clip import Clip
 from engine.clips.library import find_clip
@@ -26,7 +27,8 @@ def open_scenario(name_or_path: str, overrides: Sequence[str] = ()) -> tuple[Sce
 
 
 def start(scenario: Scenario, folder: Path) -> Simulation:
-    """The scenario at its first tick."""
+    """The scenario at its first tick, with kernels that match their sources."""
+    forget_stale()
 
     def find(spec: CharacterSpec) -> Clip:
         return find_clip(spec.clip, relative_to=folder, sex=spec.sex, body_mass_kg=spec.mass_kg)
@@ -34,16 +36,19 @@ def start(scenario: Scenario, folder: Path) -> Simulation:
     return Simulation(scenario, find)
 
 
-def recorder_of(simulation: Simulation, folder: Path) -> Recorder:
-    """Records every tick from here on, with all that a replay on this machine needs."""
+def journal_of(simulation: Simulation, folder: Path) -> Journal:
+    """An empty recording of a run, with all that a replay on this machine needs."""
     header = {
         "scenario": simulation.scenario.model_dump(mode="json"),
         "folder": str(folder),
         "clips": [clip.key for clip in simulation.world.assets.clips],
     }
-    return Recorder(
-        simulation.world, simulation.schedule.tick, apply_command, new_journal(header, simulation.world)
-    )
+    return new_journal(header, simulation.world)
+
+
+def recorder_of(simulation: Simulation, folder: Path) -> Recorder:
+    """Records every tick from here on."""
+    return Recorder(simulation.world, simulation.schedule.tick, apply_command, journal_of(simulation, folder))
 
 
 def replayed(journal: Journal, where: str) -> tuple[Simulation, Recorder]:

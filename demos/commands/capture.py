@@ -37,13 +37,13 @@ def run(args: argparse.Namespace) -> None:
     kind = capture_kind(args.output)
     simulation = start(*open_scenario(args.scenario, args.set))
     if kind == "png":
-        write_strip(args, simulation, shot)
+        write_strip(args.output, simulation, shot, args.frames, args.columns, args.from_s, args.to_s)
     else:
         write_film(args.output, simulation.world, simulation.step, simulation.ticks, shot)
     say(f"wrote {args.output}")
 
 
-def write_film(output: str, world, advance, ticks: int, shot) -> None:
+def write_film(output, world, advance, ticks: int, shot) -> None:
     """The whole run as moving pictures."""
     from demos.filming import frame_count, moments, pictures
     from demos.running import with_progress
@@ -53,12 +53,12 @@ def write_film(output: str, world, advance, ticks: int, shot) -> None:
     write_film(output, with_progress(drawn, "drawing", frame_count(ticks, shot)), shot.fps)
 
 
-def write_strip(args: argparse.Namespace, simulation, shot) -> None:
-    """Chosen moments of the run side by side."""
+def write_strip(output, simulation, shot, frames=None, columns=None, from_s=None, to_s=None) -> None:
+    """Chosen moments of the run side by side; see `choose` for the span."""
     from demos.filming import choose, moments, strip_pictures
     from engine.render.capture import write_filmstrip
 
     seen = list(moments(simulation.world, simulation.step, simulation.ticks, shot._replace(fps=120.0)))
-    chosen = choose(seen, args.frames or STRIP_FRAMES, args.from_s, args.to_s)
+    chosen = choose(seen, frames or STRIP_FRAMES, from_s, to_s)
     captions = [f"{now.time_s:.2f} s\n{now.phase.replace('_', ' ')}" for now in chosen]
-    write_filmstrip(args.output, strip_pictures(chosen, shot), captions, columns=args.columns)
+    write_filmstrip(output, strip_pictures(chosen, shot), captions, columns=columns)

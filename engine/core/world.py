@@ -43,7 +43,7 @@ class World:
             raise ValueError(f"two components of one name in {', '.join(names)}")
         self.tick = 0
         self.seed = int(seed)
-        self.assets = {} if assets is None else assets
+        self.assets: Any = {} if assets is None else assets
         self.events = EventLog()
         self.schema = schema_key(schema_text(self.components))
         self._rows = Rows(FIRST_CAPACITY)

@@ -1,0 +1,105 @@
+"""`brace demo`: the window; without a display, pictures of the same."""
+
+from __future__ import annotations
+
+import argparse
+import os
+from pathlib import Path
+
+from demos.commands.arguments import add_filming, add_scenario, shot_of
+from engine.core.errors import EnvironmentTrouble
+
+OFFLINE_SCENARIO = "sway"
+STRIP_SIZE = (480, 540)
+
+
+def register(subparsers) -> None:
+    parser = subparsers.add_parser(
+        "demo",
+        help="the interactive window; without a display, pictures",
+        description="Opens a window on a scenario: F1 there lists the keys. Without a display it draws a film and a "
+        "filmstrip instead and says where they are.",
+        epilog="example: brace demo volleyball --ghosts",
+    )
+    add_scenario(parser, default="volleyball")
+    add_filming(parser, size="960x540")
+    parser.add_argument("-o", "--output", metavar="FOLDER", default="out", help="where pictures go (out)")
+    parser.set_defaults(run=run)
+
+
+def run(args: argparse.Namespace) -> None:
+    if os.environ.get("DISPLAY") or os.environ.get("WAYLAND_DISPLAY"):
+        _window(args)
+    else:
+        _pictures(args)
+
+
+def _simulation(args: argparse.Namespace):
+    """The scenario asked for; the one that needs no fetching, where nothing was asked for and clips are missing."""
+    from demos.running import open_scenario, start
+
+    try:
+        scenario, folder = open_scenario(args.scenario, args.set)
+        return start(scenario, folder), folder
+    except EnvironmentTrouble as trouble:
+        if trouble.code != "clip-not-fetched" or args.scenario != "volleyball":
+            raise
+        print(f"the real clips are not here (brace clips fetch); showing {OFFLINE_SCENARIO!r} instead", flush=True)
+        args.scenario = OFFLINE_SCENARIO
+        scenario, folder = open_scenario(args.scenario, args.set)
+        return start(scenario, folder), folder
+
+
+def _window(args: argparse.Namespace) -> None:
+    from demos.play import play_of
+    from demos.running import journal_of
+    from engine.render.camera import orbit_camera
+    from engine.render.context import make_context
+    from engine.render.controls import CameraHands
+    from engine.render.loop import run_loop
+    from engine.render.renderer import Renderer
+
+    shot = shot_of(args)
+    simulation, folder = _simulation(args)
+    with make_context(headless=False, size=shot.size_px, title=f"Brace: {args.scenario}") as context:
+        renderer = Renderer(context)
+        show = play_of(simulation, journal_of(simulation, folder), renderer.read_rgb, Path.cwd())
+        show.ghosts = tuple(shot.ghosts)
+        hands = CameraHands(orbit_camera(show.centre_m(), *shot.camera))
+        run_loop(context, renderer, show, hands=hands, follow=show.centre_m)
+
+
+def _pictures(args: argparse.Namespace) -> None:
+    from demos.commands.capture import write_film, write_strip
+    from engine.render.capture import capture_kind
+
+    shot = shot_of(args)
+    simulation, _ = _simulation(args)
+    stem = _picture_folder(args.output) / Path(args.scenario).stem
+    strip, film = stem.with_suffix(".png"), stem.with_suffix(".mp4" if _has_ffmpeg() else ".gif")
+    capture_kind(strip)
+    capture_kind(film)
+    print(f"no display here; drawing {strip} and {film}", flush=True)
+    write_strip(strip, simulation, shot._replace(size_px=STRIP_SIZE))
+    simulation, _ = _simulation(args)
+    write_film(film, simulation.world, simulation.step, simulation.ticks, shot)
+    print(f"pictures: {strip} (a filmstrip) and {film} (a film)")
+
+
+def _has_ffmpeg() -> bool:
+    from engine.render.capture import find_ffmpeg
+
+    try:
+        find_ffmpeg()
+    except EnvironmentTrouble:
+        return False
+    return True
+
+
+def _picture_folder(name: str) -> Path:
+    folder = Path(name)
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+    except OSError as trouble:
+        raise EnvironmentTrouble("UNWRITABLE", f"cannot be made: {trouble.strerror or trouble}", name) from None
+    return folder
