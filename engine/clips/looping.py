@@ -26,7 +26,7 @@ VELOCITY_WEIGHT_S = 0.1
 GAIT_BLEND_S, STAND_BLEND_S = 0.2, 0.4
 STILL_MPS = 0.15
 # a loop may leave out this much of a gait at either end (parts of a stride), and this much of a clip that stands
-GAIT_MARGIN, STAND_MARGIN = 0.45, 0.1
+GAIT_MARGIN, STAND_MARGIN = 0.45, 0.2
 # a heading that a gait changes by less in one round is a wobble, not a turn
 STRAIGHT_RAD = np.radians(15.0)
 MOST_CANDIDATES = 200
