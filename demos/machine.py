@@ -8,6 +8,7 @@ import re
 import shutil
 import subprocess
 import sys
+import tempfile
 from importlib import metadata
 from pathlib import Path
 from typing import Any, NamedTuple
@@ -147,19 +148,25 @@ def _clips() -> Finding:
 
 def _cache() -> Finding:
     folder = cache_folder()
-    parent = next((place for place in (folder, *folder.parents) if place.exists()), folder)
-    if not os.access(parent, os.W_OK):
-        return Finding("cache", WARNING, f"{folder} cannot be written", "set BRACE_CACHE to a folder that can")
+    try:
+        with tempfile.TemporaryFile(dir=_existing(folder)):
+            pass
+    except OSError as trouble:
+        return Finding("cache", WARNING, f"{folder}: {trouble.strerror}", "set BRACE_CACHE to a folder that can be written")
     used = sum(file.stat().st_size for file in folder.rglob("*") if file.is_file()) if folder.exists() else 0
     return Finding("cache", GOOD, f"{folder}, {used / 2**20:.1f} MiB")
 
 
 def _disk() -> Finding:
-    folder = cache_folder()
-    place = next(place for place in (folder, *folder.parents) if place.exists())
+    place = _existing(cache_folder())
     free = shutil.disk_usage(place).free
     detail = f"{free / 2**30:.1f} GiB free at {place}"
     return Finding("disk", GOOD, detail) if free >= ROOM_BYTES else Finding("disk", WARNING, detail, "make some room")
+
+
+def _existing(folder: Path) -> Path:
+    """The folder, or the nearest above it that is there."""
+    return next(place for place in (folder, *folder.absolute().parents) if place.is_dir())
 
 
 def _try_python(code: str) -> tuple[int, str, str]:

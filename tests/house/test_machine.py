@@ -65,3 +65,11 @@ def test_text_has_a_line_for_each_check(monkeypatch, capsys):
     assert first.startswith("!!")
     assert first.endswith("no EGL  ->  install it")
     assert second.startswith("ok")
+
+
+def test_a_cache_is_tried(monkeypatch, tmp_path):
+    monkeypatch.setenv("BRACE_CACHE", str(tmp_path / "new/deeper"))
+    assert machine._cache().state == "good"
+    assert not (tmp_path / "new").exists()  # looking changes nothing
+    monkeypatch.setenv("BRACE_CACHE", "/proc/nowhere/cache")
+    assert machine._cache().state == "warning"
