@@ -152,7 +152,7 @@ def _cache() -> Finding:
         with tempfile.TemporaryFile(dir=_existing(folder)):
             pass
     except OSError as trouble:
-        return Finding("cache", WARNING, f"{folder}: {trouble.strerror}", "set BRACE_CACHE to a folder that can be written")
+        return Finding("cache", WARNING, f"{folder}: {trouble.strerror}", "set BRACE_CACHE to another folder")
     used = sum(file.stat().st_size for file in folder.rglob("*") if file.is_file()) if folder.exists() else 0
     return Finding("cache", GOOD, f"{folder}, {used / 2**20:.1f} MiB")
 
