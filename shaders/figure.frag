@@ -29,7 +29,7 @@ void main() {
     vec3 light = lit_surface(albedo, normal, to_eye, to_light.xyz, 0.85, 0.0);
     pixel = vec4(displayed(light), clamp(paint.a * (0.92 + 0.9 * edge * edge), 0.0, 1.0));
 #else
-    float shadow = key_light_at(world_m, normal, 1.5);
+    float shadow = key_light_at(world_m, normal, 1.9);
     float gloss = material > 1.5 && material < 2.5 ? 1.0 : 0.12;
     vec3 light = lit_surface(albedo_of(material, paint.rgb), normal, to_eye, to_light.xyz, shadow, gloss);
     // the floor takes light away from what stands close over it

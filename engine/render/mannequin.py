@@ -13,7 +13,18 @@ import numpy as np
 
 from engine.body import skeleton as sk
 from engine.body.skeleton import Body
-from engine.render.surface import Shape, ball, blend, carve, ellipsoid, half_space, mesh, taper, without_buried
+from engine.render.surface import (
+    Shape,
+    ball,
+    blend,
+    both_sides,
+    carve,
+    ellipsoid,
+    half_space,
+    mesh,
+    taper,
+    without_buried,
+)
 
 SHELL, JOINT, VISOR, SHOE = range(4)  # materials: the figure's colour, its darker joints, the face's glass, the shoe
 
@@ -96,39 +107,38 @@ def _trunk(body: Body, rest: np.ndarray, size: float) -> list[Part]:
         0.05 * size,
         ellipsoid(at(0.08, 0.002), (0.098 * size, max(0.152 * size, hip_half + 0.062 * size), 0.155 * height), 2.2),
         taper(at(0.10, 0.004), at(0.34, 0.006), 0.132 * size, 0.126 * size, flat=(0.70, 1.0, 0.9)),
-        *[ball(at(0.0, -0.045, y), 0.082 * size) for y in (-0.068, 0.068)],
+        both_sides(ball(at(0.0, -0.045, 0.068), 0.082 * size)),
     )
     pelvis = carve(0.03 * size, pelvis, half_space(at(0.315), (0, 0, -1.0)))
-    midriff = ellipsoid(at(0.36, 0.006), (0.086 * size, 0.124 * size, 0.26 * height), 2.2)
+    midriff = ellipsoid(at(0.36, 0.006), (0.080 * size, 0.114 * size, 0.26 * height), 2.1)
     shoulder_half = abs(rest[sk.LEFT_SHOULDER][1] - neck[1])
     breadth = 0.5 * (0.146 * size + 0.80 * shoulder_half)
     ribs = blend(
         0.06 * size,
         taper(at(0.74, 0.002), at(0.48, 0.012), breadth, 0.86 * breadth, flat=(0.74, 1.0, 0.94)),
-        *[ellipsoid(at(0.78, 0.056, y), (0.052 * size, 0.072 * size, 0.062 * size)) for y in (-0.064, 0.064)],
-        *[ellipsoid(at(0.80, -0.042, y), (0.060 * size, 0.076 * size, 0.10 * size)) for y in (-0.075, 0.075)],
-        *[_trapezius(rest, side, size) for side in (sk.LEFT, sk.RIGHT)],
+        both_sides(ellipsoid(at(0.78, 0.056, 0.064), (0.052 * size, 0.072 * size, 0.062 * size))),
+        both_sides(ellipsoid(at(0.80, -0.042, 0.075), (0.060 * size, 0.076 * size, 0.10 * size))),
+        both_sides(_trapezius(rest, size)),
     )
     ribs = carve(0.03 * size, ribs, half_space(at(0.405), (0, 0, 1.0)))
     throat = taper(
-        (-0.004 * size, 0, -0.03 * size), body.offset_m[sk.HEAD] + (0.0, 0, 0.01 * size), 0.060 * size, 0.053 * size
+        (-0.004 * size, 0, -0.03 * size), body.offset_m[sk.HEAD] + (0.0, 0, 0.01 * size), 0.061 * size, 0.055 * size
     )
     parts = [
         Part(sk.PELVIS, SHELL, _shifted(pelvis, -rest[sk.PELVIS]), 0.0205 * size),
         Part(sk.WAIST, JOINT, _shifted(midriff, -rest[sk.WAIST]), 0.030 * size),
         Part(sk.BACK, SHELL, _shifted(ribs, -back), 0.0195 * size),
-        Part(sk.NECK, JOINT, throat, 0.019 * size),
+        Part(sk.NECK, JOINT, throat, 0.014 * size),
     ]
     for side in (sk.LEFT, sk.RIGHT):
         parts.append(_girdle(body, side, size))
     return parts
 
 
-def _trapezius(rest: np.ndarray, side: int, size: float) -> Shape:
-    """The slope from the neck towards the shoulder that stays with the rib cage."""
-    out = _sign(side) * size
-    shoulder = rest[sk.SHOULDERS[side]]
-    root = rest[sk.NECK] + (-0.010 * size, 0.026 * out, -0.016 * size)
+def _trapezius(rest: np.ndarray, size: float) -> Shape:
+    """The left slope from the neck towards the shoulder, which stays with the rib cage."""
+    shoulder = rest[sk.LEFT_SHOULDER]
+    root = rest[sk.NECK] + (-0.010 * size, 0.026 * size, -0.016 * size)
     return taper(root, root + 0.62 * (shoulder - root) + (0, 0, 0.004 * size), 0.046 * size, 0.044 * size)
 
 
@@ -159,11 +169,11 @@ def _head(body: Body, size: float) -> list[Part]:
     brow = ellipsoid(at(0.080, 0, 0.082), np.array([0.013, 0.052, 0.010]) * size)
     head = blend(0.02 * size, head, brow)
     nose = taper(at(0.088, 0, 0.124), at(0.102, 0, 0.149), 0.008 * size, 0.0110 * size)
-    ears = [ellipsoid(at(-0.008, y, 0.118), np.array([0.019, 0.010, 0.030]) * size) for y in (-0.074, 0.074)]
+    ears = both_sides(ellipsoid(at(-0.008, 0.074, 0.118), np.array([0.019, 0.010, 0.030]) * size))
     glass = Shape(lambda points: head.field(points) - 0.0035 * size, head.low - 0.003, head.high + 0.003)
     visor = carve(0.006 * size, glass, lambda points: -_outside_lens((points - crown) / size) * size)
     return [
-        Part(sk.HEAD, SHELL, blend(0.012 * size, head, nose, *ears), 0.0115 * size),
+        Part(sk.HEAD, SHELL, blend(0.012 * size, head, nose, ears), 0.0115 * size),
         Part(sk.HEAD, VISOR, visor, 0.0058 * size),
     ]
 

@@ -23,7 +23,7 @@ SIMULATED_RED: Colour = (0.84, 0.17, 0.16)
 BLEND_GREY: Colour = (0.55, 0.57, 0.60)
 PERSON: Colour = (0.90, 0.87, 0.83)  # the one who lives: warm porcelain
 
-_FLESH_M = 0.07  # a body's surface is about this far from its joints and tips
+_FLESH_M, _SKIN_M = 0.08, 0.015  # how far a body's surface is from its joints, and from its tips
 
 
 @dataclass(frozen=True)
@@ -83,21 +83,23 @@ class Scene:
 def extent_points(scene: Scene) -> np.ndarray:
     """Points (N, 3) that a camera must see to see all figures and balls, surfaces included; none below the floor."""
     points = [np.zeros((0, 3))]
-    points += [_surrounded(tips_of(figure), _FLESH_M) for figure in scene.figures]
+    for figure in scene.figures:
+        points += [_surrounded(figure.positions, _FLESH_M), _surrounded(tips_of(figure), _SKIN_M)]
     points += [_surrounded(np.reshape(ball.position_m, (1, 3)), ball.radius_m) for ball in scene.balls]
     around = np.vstack(points)
     return np.column_stack([around[:, :2], np.maximum(around[:, 2], 0.0)])
 
 
 def tips_of(figure: Figure) -> np.ndarray:
-    """Joints, crown, fingertips and soles of a figure (N, 3), world metres."""
+    """Crown, fingertips and soles of a figure (N, 3), world metres."""
     body, tips = figure.body, [(HEAD, figure.body.head_top_m)]
     for side in (LEFT, RIGHT):
         tips += [(WRISTS[side], body.fingertip_m[side])]
         tips += [(ANKLES[side], point) for point in body.sole_m[side, :4]]
         tips += [(TOES[side], point) for point in body.sole_m[side, 4:]]
-    ends = [np.add(figure.positions[j], quaternion.rotate(figure.orientations[j], point)) for j, point in tips]
-    return np.vstack([figure.positions, ends])
+    return np.array(
+        [np.add(figure.positions[j], quaternion.rotate(figure.orientations[j], point)) for j, point in tips]
+    )
 
 
 def _surrounded(points_m: np.ndarray, radius_m: float) -> np.ndarray:

@@ -95,6 +95,14 @@ def carve(width_m: float, shape: Shape, *cutters: Field) -> Shape:
     return Shape(field, shape.low, shape.high)
 
 
+def both_sides(shape: Shape) -> Shape:
+    """A shape on the left, and the same mirrored on the right, in one exactly symmetrical field."""
+    low, high = shape.low * (1, 0, 1) - shape.high * (0, 1, 0), shape.high
+    return Shape(
+        lambda points: shape.field(np.column_stack([points[:, 0], np.abs(points[:, 1]), points[:, 2]])), low, high
+    )
+
+
 def half_space(point, outward) -> Field:
     """Everything behind a plane; as a cutter it removes that side."""
     point, outward = np.asarray(point, float), np.asarray(outward, float)

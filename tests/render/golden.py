@@ -4,8 +4,8 @@
     def test_ball():
         return Scene(balls=[...]), camera
 
-The references lie in tests/golden, one per visible thing. A missing one fails. `BRACE_GOLDEN=write` makes them anew: look
-at every one of them before committing. What was drawn instead, and where it differs, is written to out/golden.
+The references lie in tests/golden, one per visible thing. A missing one fails. `BRACE_GOLDEN=write` makes them anew:
+look at every one of them before committing. What was drawn instead, and where it differs, is written to out/golden.
 """
 
 from __future__ import annotations
@@ -56,19 +56,21 @@ def assert_golden(name: str, drawn: np.ndarray, references: Path = REFERENCES, r
     actual = rejected / f"{name}.png"
     if not reference.exists():
         _keep(actual, drawn)
-        raise AssertionError(f"no reference {reference}; look at {actual}, then run again with BRACE_GOLDEN=write")
+        raise AssertionError(f"no reference {reference}; look at {actual}, then make it: BRACE_GOLDEN=write")
     with Image.open(reference) as picture:
         wanted = np.asarray(picture.convert("RGB"))
     assert wanted.shape == drawn.shape, f"{name}: drawn {drawn.shape}, reference {wanted.shape}"
     tiles = tile_differences(wanted, drawn)
-    if tiles.max() > TOLERANCE:
-        _keep(actual, drawn)
-        _keep(rejected / f"{name}.difference.png", np.minimum(np.abs(wanted.astype(int) - drawn) * 4, 255).astype("u1"))
-        row, column = np.unravel_index(tiles.argmax(), tiles.shape)
-        raise AssertionError(
-            f"{name}: {np.count_nonzero(tiles > TOLERANCE)} regions differ, most at x {column * TILE_PX}, y {row * TILE_PX} "
-            f"(mean {tiles.max():.1f} of 255, allowed {TOLERANCE}); compare {actual} with {reference}"
-        )
+    if tiles.max() <= TOLERANCE:
+        return
+    _keep(actual, drawn)
+    difference = np.abs(wanted.astype(int) - drawn)
+    _keep(rejected / f"{name}.difference.png", np.minimum(4 * difference, 255).astype("u1"))
+    y, x = TILE_PX * np.array(np.unravel_index(tiles.argmax(), tiles.shape))
+    raise AssertionError(
+        f"{name}: {np.count_nonzero(tiles > TOLERANCE)} regions differ, most at x {x}, y {y} (mean {tiles.max():.1f} of 255, "
+        f"allowed {TOLERANCE}); compare {actual} with {reference}"
+    )
 
 
 def tile_differences(wanted: np.ndarray, drawn: np.ndarray) -> np.ndarray:

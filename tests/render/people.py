@@ -59,7 +59,7 @@ PROTECT = {
 
 
 def pose_of(body: Body, turns: dict[str, str]) -> Pose:
-    """Joint turns in degrees, applied left to right in the joint's own turning frame; the lowest sole point on the floor."""
+    """Joint turns in degrees, each in the frame that the one before it left; the lowest sole point on the floor."""
     rotations = np.tile(quaternion.IDENTITY, (JOINT_COUNT, 1))
     for name, steps in turns.items():
         q = quaternion.IDENTITY

@@ -128,7 +128,7 @@ def test_marks_and_words():
     draw.polygon([(0.0, 0.5, 0.3), (0.0, 0.9, 0.3), (0.0, 0.9, 0.7)], CLIP_BLUE, filled=False)
     draw.label((1.4, 0.6, 1.5), "26.0 m/s", CLIP_BLUE)
     scene = Scene(
-        figures=[figure], draw=draw, captions=[("top-left", "walk\nt = 1.25 s"), ("bottom-right", "protect 80%")]
+        figures=[figure], draw=draw, captions=[("top-right", "walk\nt = 1.25 s"), ("bottom-right", "protect 80%")]
     )
     return _framed(scene, 50.0)
 

@@ -35,6 +35,7 @@ class DecalPass:
     def upload(self, scene: Scene) -> None:
         contacts = [row for figure in scene.figures if figure.alpha >= 1.0 for row in figure_contacts(figure)]
         contacts += [row for ball in scene.balls if ball.alpha >= 1.0 for row in _ball_contact(ball)]
+        contacts = contacts if scene.floor.shown else []  # nothing to fall on
         self.contacts.upload(np.array(contacts, "f4").reshape(-1, 11))
         self.marks.upload(np.array(_balance_marks(scene), "f4").reshape(-1, 11))
 
@@ -48,20 +49,22 @@ class DecalPass:
 def figure_contacts(figure: Figure) -> list[tuple[float, ...]]:
     """A dark spot under each joint that is near the floor, and a faint wide one under the whole body."""
     rows = []
-    gap_m = np.maximum(figure.positions[:, 2] - _JOINT_RADIUS_M, 0.0)
+    gap_m = np.clip(figure.positions[:, 2] - _JOINT_RADIUS_M, 0.0, 3.0)
     strength = 0.42 * np.exp(-gap_m / 0.05)
     for joint in np.flatnonzero(strength > 0.01):
         x, y, _ = figure.positions[joint]
         spread = 0.075 + 0.5 * gap_m[joint] + 0.5 * _JOINT_RADIUS_M[joint]
         rows.append(_mark(x, y, 0.0, spread, spread, (*CONTACT_COLOUR, strength[joint]), CONTACT))
     x, y, z = figure.positions[sk.PELVIS]
-    rows.append(_mark(x, y, 0.0, 0.62, 0.62, (*CONTACT_COLOUR, 0.16 * np.exp(-max(z - 0.9, 0.0) / 0.8)), CONTACT))
+    rows.append(
+        _mark(x, y, 0.0, 0.62, 0.62, (*CONTACT_COLOUR, 0.16 * np.exp(-min(max(z - 0.9, 0.0), 20.0) / 0.8)), CONTACT)
+    )
     return rows
 
 
 def _ball_contact(ball: Ball) -> list[tuple[float, ...]]:
     x, y, z = np.asarray(ball.position_m, float)
-    gap_m = max(z - ball.radius_m, 0.0)
+    gap_m = min(max(z - ball.radius_m, 0.0), 20.0 * ball.radius_m)
     strength = 0.55 * np.exp(-gap_m / (0.9 * ball.radius_m))
     spread = 0.95 * ball.radius_m + 0.5 * gap_m
     return [_mark(x, y, 0.0, spread, spread, (*CONTACT_COLOUR, strength), CONTACT)] if strength > 0.01 else []
