@@ -1,9 +1,8 @@
 """Acclaim motion (.amc) on its skeleton (.asf), read strictly.
 
-An ASF bone turns about its *start*; `direction` and `length` say where it ends, and its `axis` gives the frame in which the
-AMC's angles are meant: local rotation = C M C^-1, with C from `axis` and M from the angles, both applied in the order
-of their letters (x first). So every bone becomes a joint at its start whose rest orientation is the world's.
-"""
+An ASF bone turns about its *start*; `direction` and `length` say where it ends, and its `axis` gives the frame in which
+the AMC's angles are meant: local rotation = C M C^-1, with C from `axis` and M from the angles, both applied in the
+order of their letters (x first). So every bone becomes a joint at its start whose rest orientation is the world's."""
 
 from __future__ import annotations
 
@@ -45,7 +44,8 @@ def read_acclaim(amc: str | Path, asf: str | Path) -> Tracks:
 
 
 def find_asf(amc: Path) -> Path:
-    """The skeleton that belongs to a motion: SUBJECT_TRIAL.amc has SUBJECT.asf beside it, else the same stem, else the only one there."""
+    """The skeleton that belongs to a motion: SUBJECT_TRIAL.amc has SUBJECT.asf beside it, else the same stem, else the
+    only one there."""
     beside = sorted(path for path in amc.parent.glob("*") if path.suffix.lower() == ".asf")
     for stem in (amc.stem, amc.stem.rsplit("_", 1)[0]):
         for path in beside:
@@ -84,11 +84,13 @@ def read_channels(path: Path, skeleton: Skeleton) -> dict[str, np.ndarray]:
 
 def _check_keyword(words: list[str], skeleton: Skeleton, path: Path, number: int) -> None:
     keyword = words[0].upper()
-    if keyword == ":RADIANS" and skeleton.degrees or keyword == ":DEGREES" and not skeleton.degrees:
+    if (keyword == ":RADIANS" and skeleton.degrees) or (keyword == ":DEGREES" and not skeleton.degrees):
         raise bad(path, number, keyword, "the same angle unit as in the .asf")
 
 
-def _use_bone_line(words: list[str], wanted: dict[str, int], values: dict[str, list[list[float]]], frame: int, path: Path, number: int) -> None:  # fmt: skip
+def _use_bone_line(
+    words: list[str], wanted: dict[str, int], values: dict[str, list[list[float]]], frame: int, path: Path, number: int
+) -> None:
     name = words[0]
     if name not in wanted:
         raise bad(path, number, f"unknown bone {name[:40]!r}", "a bone of the .asf that has dof")

@@ -1,4 +1,5 @@
-"""Acclaim skeletons (.asf), read strictly: bones with direction, length, axis and degrees of freedom, and who hangs on whom."""
+"""Acclaim skeletons (.asf), read strictly: bones with direction, length, axis and degrees of freedom, and who hangs on
+whom."""
 
 from __future__ import annotations
 
@@ -53,14 +54,17 @@ def read_skeleton(path: Path) -> Skeleton:
 
 def bad(path: Path, line: int, found: str, expected: str) -> BadInput:
     """One complaint about one line of an .asf or .amc file."""
-    return BadInput("asf" if path.suffix.lower() == ".asf" else "amc", f"found {found}, expected {expected}", f"{path}:{line}")
+    return BadInput(
+        "asf" if path.suffix.lower() == ".asf" else "amc", f"found {found}, expected {expected}", f"{path}:{line}"
+    )
 
 
 Line = tuple[int, list[str]]
 
 
 def _sections(path: Path) -> dict[str, list[Line]]:
-    """{":root": [(line number, words) ...], ...}; comments and empty lines left out; a section's own line comes first."""
+    """{":root": [(line number, words) ...], ...}; comments and empty lines left out; a section's own line comes
+    first."""
     sections: dict[str, list[Line]] = {}
     current: list[Line] | None = None
     for number, text in enumerate(read_lines(path), start=1):

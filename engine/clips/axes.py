@@ -1,4 +1,5 @@
-"""A file's length unit and axes, found out from the figure itself: no motion file says reliably which way is up or how long a unit is."""
+"""A file's length unit and axes, found out from the figure itself: no motion file says reliably which way is up or how
+long a unit is."""
 
 from __future__ import annotations
 
@@ -27,7 +28,8 @@ class Axes:
 
 
 def find_axes(tracks: Tracks, rig: Rig) -> Axes:
-    """Scale from the length of the legs; up from the rest pose and, where they disagree, from the motion; ahead from the hips."""
+    """Scale from the length of the legs; up from the rest pose and, where they disagree, from the motion; ahead from
+    the hips."""
     rest = rest_positions(tracks)
     leg = leg_length(rest, rig)
     scale, notes = _scale(leg, tracks.scale_to_m)
@@ -52,7 +54,8 @@ def leg_length(rest: np.ndarray, rig: Rig) -> float:
 
 
 def _scale(leg: float, told: float | None) -> tuple[float, tuple[str, ...]]:
-    """The unit that the format names, if it gives a human leg; else the usual unit that comes nearest; else the leg is made usual."""
+    """The unit that the format names, if it gives a human leg; else the usual unit that comes nearest; else the leg is
+    made usual."""
     if told is not None and SHORTEST_LEG_M < leg * told < LONGEST_LEG_M:
         return told, ()
     unit = min(UNITS_M, key=lambda u: abs(np.log(max(leg, 1e-9) * u / USUAL_LEG_M)))

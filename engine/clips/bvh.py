@@ -1,4 +1,5 @@
-"""Biovision hierarchy files (.bvh), read strictly: every line that is not what it should be is named, none is guessed at."""
+"""Biovision hierarchy files (.bvh), read strictly: every line that is not what it should be is named, none is guessed
+at."""
 
 from __future__ import annotations
 
@@ -53,7 +54,8 @@ class Reading:
 
 
 def read_bvh(path: str | Path) -> Tracks:
-    """The joints, channels and frames of one .bvh file. BadInput names file, line, what was found and what was expected."""
+    """The joints, channels and frames of one .bvh file. BadInput names file, line, what was found and what was
+    expected."""
     path = Path(path)
     reading = Reading(path, read_lines(path))
     _read_hierarchy(reading)
@@ -183,7 +185,8 @@ def _read_frames(reading: Reading, frames: int, channels: int) -> np.ndarray:
 
 
 def _split_channels(reading: Reading, values: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """The root's path (F, 3) and every joint's rotation (F, J, 4); rotations multiply in the order in which they are listed."""
+    """The root's path (F, 3) and every joint's rotation (F, J, 4); rotations multiply in the order in which they are
+    listed."""
     root = np.tile(np.array(reading.joints[0].offset, float), (len(values), 1))
     turns = np.empty((len(values), len(reading.joints), 4))
     column = 0
@@ -201,7 +204,8 @@ def _split_channels(reading: Reading, values: np.ndarray) -> tuple[np.ndarray, n
 
 
 def _use_position(reading: Reading, joint: Joint, axis: int, column: np.ndarray, root: np.ndarray) -> None:
-    """The root's path is kept. Elsewhere some programs repeat the OFFSET in every frame, or zero; a bone that truly moves is refused."""
+    """The root's path is kept. Elsewhere some programs repeat the OFFSET in every frame, or zero; a bone that truly
+    moves is refused."""
     if joint.parent < 0:
         root[:, axis] = column
         return

@@ -1,8 +1,7 @@
 """Imported clips kept as arrays in the user's cache, so that a second load takes milliseconds.
 
-A file is keyed by the content of what it was made from, of the wishes and of the importing code, so it is never stale. It is written
-beside its name and renamed, so it is never half there; a file that cannot be read is as good as none.
-"""
+A file is keyed by the content of what it was made from, of the wishes and of the importing code, so it is never stale.
+It is written beside its name and renamed, so it is never half there; a file that cannot be read is as good as none."""
 
 from __future__ import annotations
 
@@ -14,7 +13,7 @@ import zipfile
 from collections.abc import Callable
 from dataclasses import asdict
 from pathlib import Path
-from typing import IO
+from typing import IO, Any
 
 import numpy as np
 
@@ -53,7 +52,7 @@ def load(key: str) -> Clip | None:
 def save(clip: Clip) -> None:
     """Keeps a clip. A cache that cannot be written is no fault: the clip is imported again next time."""
     words = {"name": clip.name, "fps": clip.fps, "loop": list(clip.loop), "report": asdict(clip.report)}
-    arrays = {
+    arrays: dict[str, Any] = {
         "root_m": clip.pose.root_m,
         "rotations": clip.pose.rotations,
         "planted": clip.planted,
@@ -67,7 +66,8 @@ def save(clip: Clip) -> None:
 
 
 def write_whole(path: Path, write: Callable[[IO[bytes]], object]) -> None:
-    """Writes a file so that its name never stands for half of it: `write` gets an open binary file beside it. OSError passes on."""
+    """Writes a file so that its name never stands for half of it: `write` gets an open binary file beside it. OSError
+    passes on."""
     beside = path.with_name(f".{path.name}.{os.getpid()}.{secrets.token_hex(4)}")
     try:
         with open(beside, "xb") as file:

@@ -11,11 +11,12 @@ from engine.body.skeleton import Body, Pose
 
 
 class Loop(NamedTuple):
-    """How a clip goes on when it is over: from frame `last` back to frame `first`, numbers only, so that kernels take it.
+    """How a clip goes on when it is over: from frame `last` back to frame `first`, numbers only, so that kernels take
+    it.
 
-    Over the `blend` frames before `last` the motion that leads up to `first` fades in, so nothing jumps. A round carries the
-    path on: by (x_m, y_m) and yaw_rad, in the clip's own frame. last = 0: the clip does not loop, it holds its last pose.
-    """
+    Over the `blend` frames before `last` the motion that leads up to `first` fades in, so nothing jumps. A round
+    carries the path on: by (x_m, y_m) and yaw_rad, in the clip's own frame. last = 0: the clip does not loop, it holds
+    its last pose."""
 
     first: float = 0.0
     last: float = 0.0
@@ -45,7 +46,8 @@ class ImportReport:
     rest_frames_dropped: int
     planted: dict[str, list[list[int]]]  # "left", "right": first and last kept frame of every stretch
     missing_joints: list[str]  # canonical joints that nothing in the file moves
-    hinge_residual_deg: float  # how far from its Y axis a well-bent elbow or knee bent before it was put right, 95th percentile
+    # how far from its Y axis a well-bent elbow or knee bent before it was put right, 95th percentile
+    hinge_residual_deg: float
     position_error_m: float  # greatest distance of a joint from its place in the file (shorter spine and neck chains)
     notes: list[str]
 

@@ -1,8 +1,7 @@
 """When a foot stands on the floor.
 
-A foot is planted while its ball or its ankle is near the level at which that foot stands and hardly moves. The ball alone would
-miss the heel strike, the ankle alone the push-off.
-"""
+A foot is planted while its ball or its ankle is near the level at which that foot stands and hardly moves. The ball
+alone would miss the heel strike, the ankle alone the push-off."""
 
 from __future__ import annotations
 
@@ -16,7 +15,8 @@ SHORTEST_PLANT_S, SHORTEST_STEP_S = 0.05, 0.05
 
 
 def speeds(points_m: np.ndarray, fps: float) -> np.ndarray:
-    """(F, ..., 3) -> (F, ...) metres a second, from the difference across about a thirtieth of a second around each frame."""
+    """(F, ..., 3) -> (F, ...) metres a second, from the difference across about a thirtieth of a second around each
+    frame."""
     reach = max(1, round(fps / 60.0))
     frames = np.arange(len(points_m))
     after, before = np.minimum(frames + reach, len(points_m) - 1), np.maximum(frames - reach, 0)
@@ -35,8 +35,8 @@ def slow_limit(pelvis_m: np.ndarray, fps: float) -> np.ndarray:
 
 
 def planted(ball_m: np.ndarray, ankle_m: np.ndarray, pelvis_m: np.ndarray, fps: float) -> np.ndarray:
-    """Which foot stands: (F, 2) bool from balls and ankles (F, 2, 3) and the pelvis (F, 3), heights counted from the levels at
-    which that ball and that ankle are when their foot stands flat."""
+    """Which foot stands: (F, 2) bool from balls and ankles (F, 2, 3) and the pelvis (F, 3), heights counted from the
+    levels at which that ball and that ankle are when their foot stands flat."""
     limit = slow_limit(pelvis_m, fps)[:, None]
     by_ball = (ball_m[..., 2] < BALL_NEAR_M) & (speeds(ball_m, fps) < limit)
     by_ankle = (ankle_m[..., 2] < ANKLE_NEAR_M) & (speeds(ankle_m, fps) < limit)
@@ -54,7 +54,8 @@ def runs(flags: np.ndarray) -> list[tuple[int, int]]:
 
 
 def without_short(flags: np.ndarray, value: bool, frames: float) -> np.ndarray:
-    """(F,) with stretches of `value` shorter than `frames` turned over, except at the ends of the clip, where they may go on."""
+    """(F,) with stretches of `value` shorter than `frames` turned over, except at the ends of the clip, where they may
+    go on."""
     out = flags.copy()
     for first, last in runs(flags == value):
         if last - first + 1 < frames and first > 0 and last < len(flags) - 1:

@@ -1,9 +1,9 @@
 """Feet that stand flat when they stand: the last constant that a rest pose gets wrong.
 
-Marker models put the foot's frame a few degrees off the sole and one ankle up to two centimetres above the other. While a foot
-stands flat its sole *is* the floor, so those frames say what the rest pose should have: the motion of every joint stays
-as it was, only the frames of ankle and toe and the height of the sole under them are corrected, once for the clip.
-"""
+Marker models put the foot's frame a few degrees off the sole and one ankle up to two centimetres above the other. While
+a foot stands flat its sole *is* the floor, so those frames say what the rest pose should have: the motion of every
+joint stays as it was, only the frames of ankle and toe and the height of the sole under them are corrected, once for
+the clip."""
 
 from __future__ import annotations
 
@@ -31,7 +31,8 @@ class Feet(NamedTuple):
 
 
 def level_feet(pose: Pose, offset_m: np.ndarray, orientations: np.ndarray, planted: np.ndarray, fps: float) -> Feet:
-    """Turns the frames of ankles and toes so that a foot that stands flat is level. orientations (F, 21, 4) of the pose, world Z up."""
+    """Turns the frames of ankles and toes so that a foot that stands flat is level. orientations (F, 21, 4) of the
+    pose, world Z up."""
     local, offset_m = pose.rotations.copy(), offset_m.copy()
     flat = np.zeros_like(planted)
     for side, (ankle, toe) in enumerate(zip(ANKLES, TOES, strict=True)):
@@ -68,16 +69,20 @@ def _moves_by_itself(local: np.ndarray) -> bool:
     return bool(np.abs(local[:, 1:]).max() > 1e-9)
 
 
-def stand_on(ankle_m: np.ndarray, sole_m: np.ndarray, flat: np.ndarray, ball_level_m: np.ndarray, toe_offset_m: np.ndarray) -> tuple[float, np.ndarray]:  # fmt: skip
+def stand_on(
+    ankle_m: np.ndarray, sole_m: np.ndarray, flat: np.ndarray, ball_level_m: np.ndarray, toe_offset_m: np.ndarray
+) -> tuple[float, np.ndarray]:
     """The floor's height, and how much each sole must be moved to lie on it, (2,) metres.
 
-    ankle_m (F, 2) heights, sole_m (2, 6, 3) as anthropometry has it, ball_level_m (2,) heights of standing balls. The floor is
-    where the two soles are on average; what is left between left and right is made up by the soles.
-    """
-    under = np.array([
-        np.median(ankle_m[flat[:, s], s]) + sole_m[s, 0, 2] if flat[:, s].any()
-        else ball_level_m[s] - toe_offset_m[s, 2] + sole_m[s, 0, 2]
-        for s in (0, 1)
-    ])  # fmt: skip
+    ankle_m (F, 2) heights, sole_m (2, 6, 3) as anthropometry has it, ball_level_m (2,) heights of standing balls. The
+    floor is where the two soles are on average; what is left between left and right is made up by the soles."""
+    under = np.array(
+        [
+            np.median(ankle_m[flat[:, s], s]) + sole_m[s, 0, 2]
+            if flat[:, s].any()
+            else ball_level_m[s] - toe_offset_m[s, 2] + sole_m[s, 0, 2]
+            for s in (0, 1)
+        ]
+    )
     floor = float(under.mean())
     return floor, np.clip(floor - under, -GREATEST_SOLE_SHIFT_M, GREATEST_SOLE_SHIFT_M)

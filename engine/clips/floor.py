@@ -1,10 +1,9 @@
 """Where the floor is under a clip: a plane through the places where its feet stood.
 
-Captured floors are not level: over a straight walk of four metres they climb by up to six centimetres, because the capture volume
-was tilted. One tilted plane for the clip explains that, and taking it out turns the whole motion rigidly, so that a
-planted foot stays planted. Left and right foot may stand at different levels (their marker models differ by up to
-two centimetres): each foot gets its own.
-"""
+Captured floors are not level: over a straight walk of four metres they climb by up to six centimetres, because the
+capture volume was tilted. One tilted plane for the clip explains that, and taking it out turns the whole motion
+rigidly, so that a planted foot stays planted. Left and right foot may stand at different levels (their marker models
+differ by up to two centimetres): each foot gets its own."""
 
 from __future__ import annotations
 
@@ -33,7 +32,8 @@ class Floor(NamedTuple):
 
 
 def fit_floor(ball_m: np.ndarray, ankle_m: np.ndarray, pelvis_m: np.ndarray, fps: float) -> Floor:
-    """The floor under balls and ankles (F, 2, 3) that were captured at some rate. Feet that never stand take the other's level."""
+    """The floor under balls and ankles (F, 2, 3) that were captured at some rate. Feet that never stand take the
+    other's level."""
     stands = _first_guess(ball_m, pelvis_m, fps)
     for _ in range(4):
         levels, slope = _plane(ball_m, stands)
@@ -55,7 +55,7 @@ def level_from_floor(slope: np.ndarray) -> np.ndarray:
 def _first_guess(ball_m: np.ndarray, pelvis_m: np.ndarray, fps: float) -> np.ndarray:
     """Slow feet near the lowest level that any foot had within a second: no plane needed yet."""
     lowest = ball_m[..., 2].min(axis=1)
-    reach = int(round(WINDOW_S * fps))
+    reach = round(WINDOW_S * fps)
     around = np.array([lowest[max(0, f - reach) : f + reach + 1].min() for f in range(len(lowest))])
     slow = speeds(ball_m, fps) < slow_limit(pelvis_m, fps)[:, None]
     near = ball_m[..., 2] < around[:, None] + BALL_NEAR_M
@@ -64,8 +64,8 @@ def _first_guess(ball_m: np.ndarray, pelvis_m: np.ndarray, fps: float) -> np.nda
 
 
 def _plane(ball_m: np.ndarray, stands: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Levels (2,) of the two balls and one slope (2,), least squares with the slope held back as if by footprints spread SPREAD_M,
-    the farthest outliers (toes that push off, heels that strike) left out."""
+    """Levels (2,) of the two balls and one slope (2,), least squares with the slope held back as if by footprints
+    spread SPREAD_M, the farthest outliers (toes that push off, heels that strike) left out."""
     frame, side = np.nonzero(stands)
     at, height = ball_m[frame, side, :2], ball_m[frame, side, 2]
     centre = at.mean(axis=0)
@@ -84,8 +84,8 @@ def _plane(ball_m: np.ndarray, stands: np.ndarray) -> tuple[np.ndarray, np.ndarr
             # feet of one person stand at one level, give or take their markers: one far above the other only hangs low
             counted = side == (1 if apart > 0.0 else 0)
         kept = counted & (np.abs(residual) < max(0.01, 2.5 * float(np.median(np.abs(residual[counted])))))
-    level = np.array([np.median(height[side == s] - np.sum((at[side == s] - centre) * slope, axis=-1)) if (side == s).any()
-                      else np.nan for s in (0, 1)])  # fmt: skip
+    flattened = height - np.sum((at - centre) * slope, axis=-1)
+    level = np.array([np.median(flattened[side == s]) if (side == s).any() else np.nan for s in (0, 1)])
     level = np.where(np.isnan(level) | (level > np.nanmin(level) + FEET_APART_M), np.nanmin(level), level)
     return level - np.sum(centre * slope), slope
 

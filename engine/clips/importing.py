@@ -6,6 +6,7 @@ import hashlib
 from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
+from typing import NamedTuple
 
 import numpy as np
 
@@ -41,8 +42,14 @@ class Wanted:
     last_frame: int | None = None
 
 
-def import_clip(path: str | Path, *, sex: str = "male", body_mass_kg: float | None = None, name: str | None = None,
-                frames: tuple[int, int] | None = None) -> Clip:  # fmt: skip
+def import_clip(
+    path: str | Path,
+    *,
+    sex: str = "male",
+    body_mass_kg: float | None = None,
+    name: str | None = None,
+    frames: tuple[int, int] | None = None,
+) -> Clip:
     """The clip in a .bvh, .amc (its .asf beside it) or .npz file. BadInput says what is wrong with the file, and where.
 
     frames: first and last frame of the file to keep, 0-based; all of them if absent.
@@ -71,13 +78,16 @@ def read_tracks(path: Path) -> Tracks:
 
 
 def content_key(path: Path, wanted: Wanted) -> str:
-    """A name for what an import will give: it changes with any byte of the files, of the wishes, or of the code that imports."""
+    """A name for what an import will give: it changes with any byte of the files, of the wishes, or of the code that
+    imports."""
     digest = hashlib.sha256(f"{importer_version()} {wanted}".encode())
     for file in sources_of(path):
         try:
             digest.update(hashlib.sha256(file.read_bytes()).digest())
         except OSError as trouble:
-            raise BadInput("clip-unreadable", f"found no readable file ({trouble.strerror}), expected a clip", str(file)) from None
+            raise BadInput(
+                "clip-unreadable", f"found no readable file ({trouble.strerror}), expected a clip", str(file)
+            ) from None
     return digest.hexdigest()
 
 
@@ -85,8 +95,22 @@ def content_key(path: Path, wanted: Wanted) -> str:
 def importer_version() -> str:
     """Of the code that the outcome depends on, so that nothing imported by older code is ever taken from a cache."""
     here = Path(__file__).parent
-    sources = [*sorted(here.glob("*.py")), here.parent / "body" / "anthropometry.py", here.parent / "maths" / "rotations.py"]
+    sources = [
+        *sorted(here.glob("*.py")),
+        *sorted((here.parent / "body").glob("*.py")),
+        here.parent / "maths" / "rotations.py",
+    ]
     return hashlib.sha256(b"\0".join(source.read_bytes() for source in sources)).hexdigest()[:16]
+
+
+class Standing(NamedTuple):
+    """A motion on a level floor, its feet flat on it, still where the file put it."""
+
+    pose: Pose
+    body: Body
+    planted: np.ndarray  # (F, 2)
+    floor_m: float
+    slope: float  # that the file's floor had
 
 
 def build_clip(tracks: Tracks, where: Path, wanted: Wanted, name: str, key: str) -> Clip:
@@ -95,20 +119,10 @@ def build_clip(tracks: Tracks, where: Path, wanted: Wanted, name: str, key: str)
     tracks = restore_dropped_bones(tracks, rig)
     axes = find_axes(tracks, rig)
     mapped = map_tracks(tracks, rig, axes)
-    body = _body(mapped, mapped.offset_m, wanted, where)
-    dropped = _dropped(mapped.pose, body, tracks)
-    pose = _kept(mapped.pose, dropped, wanted, where)
-    floor = _floor(pose, body, tracks.fps)
-    pose = _turned(pose, level_from_floor(floor.slope))
-    positions, orientations = joints_of(body, pose)
-    feet = level_feet(pose, mapped.offset_m, orientations, floor.planted, tracks.fps)
-    body = _body(mapped, feet.offset_m, wanted, where)
-    floor_m, sole_shift = stand_on(
-        positions[:, list(ANKLES), 2], body.sole_m, feet.flat, _ball_levels(positions, floor), body.offset_m[list(TOES)]
-    )
-    body = body._replace(sole_m=body.sole_m + sole_shift[:, None, None] * np.array([0.0, 0.0, 1.0]))
-    pose, facing = _facing_ahead(feet.pose, floor_m)
-    loop = find_loop(pose, body, floor.planted, tracks.fps)
+    dropped = _dropped(mapped, _body(mapped, mapped.offset_m, wanted, where), tracks)
+    standing = _stand(_kept(mapped.pose, dropped, wanted, where), mapped, wanted, where, tracks.fps)
+    pose, facing = _facing_ahead(standing.pose, standing.floor_m)
+    loop = find_loop(pose, standing.body, standing.planted, tracks.fps)
     report = ImportReport(
         name=name,
         format=tracks.format,
@@ -119,30 +133,49 @@ def build_clip(tracks: Tracks, where: Path, wanted: Wanted, name: str, key: str)
         scale_to_m=axes.scale_to_m,
         up_axis=axes.up,
         leg_length_m=leg_length(rest_positions(tracks), rig) * axes.scale_to_m,
-        height_m=stature_m(body.offset_m),
-        floor_m=floor_m,
-        floor_slope=float(np.linalg.norm(floor.slope)),
+        height_m=stature_m(standing.body.offset_m),
+        floor_m=standing.floor_m,
+        floor_slope=standing.slope,
         facing_deg=float(np.degrees(facing)),
         rest_frames_dropped=dropped,
-        planted={side: [list(run) for run in runs(floor.planted[:, s])] for s, side in enumerate(("left", "right"))},
+        planted={side: [list(run) for run in runs(standing.planted[:, s])] for s, side in enumerate(("left", "right"))},
         missing_joints=list(mapped.missing),
         hinge_residual_deg=mapped.hinge_residual_deg,
         position_error_m=mapped.position_error_m,
         notes=[*tracks.notes, *axes.notes],
     )
-    return Clip(name, tracks.fps, pose, body, floor.planted, loop, report, key)
+    return Clip(name, tracks.fps, pose, standing.body, standing.planted, loop, report, key)
+
+
+def _stand(pose: Pose, mapped: Mapped, wanted: Wanted, where: Path, fps: float) -> Standing:
+    """Finds the floor, levels it, and puts the soles on it."""
+    floor = _floor(pose, _body(mapped, mapped.offset_m, wanted, where), fps)
+    pose = _turned(pose, level_from_floor(floor.slope))
+    positions, orientations = joints_of(_body(mapped, mapped.offset_m, wanted, where), pose)
+    feet = level_feet(pose, mapped.offset_m, orientations, floor.planted, fps)
+    body = _body(mapped, feet.offset_m, wanted, where)
+    ankle_heights = positions[:, list(ANKLES), 2]
+    balls = _ball_levels(positions, floor)
+    floor_m, shift = stand_on(ankle_heights, body.sole_m, feet.flat, balls, body.offset_m[list(TOES)])
+    body = body._replace(sole_m=body.sole_m + shift[:, None, None] * np.array([0.0, 0.0, 1.0]))
+    return Standing(feet.pose, body, floor.planted, floor_m, float(np.linalg.norm(floor.slope)))
 
 
 def _body(mapped: Mapped, offset_m: np.ndarray, wanted: Wanted, where: Path) -> Body:
     try:
         return make_body(
-            offset_m, sex=wanted.sex, mass_kg=wanted.body_mass_kg, head_top_m=mapped.head_top_m, fingertip_m=mapped.fingertip_m
+            offset_m,
+            sex=wanted.sex,
+            mass_kg=wanted.body_mass_kg,
+            head_top_m=mapped.head_top_m,
+            fingertip_m=mapped.fingertip_m,
         )
     except ValueError as trouble:
         raise BadInput("clip-body", str(trouble), str(where)) from None
 
 
-def _dropped(pose: Pose, body: Body, tracks: Tracks) -> int:
+def _dropped(mapped: Mapped, body: Body, tracks: Tracks) -> int:
+    pose = mapped.pose
     _, orientations = joints_of(body, Pose(pose.root_m[:1], pose.rotations[:1]))
     return rest_frames(pose.rotations, orientations, tracks.rotations, tracks.fps)
 
@@ -152,7 +185,11 @@ def _kept(pose: Pose, dropped: int, wanted: Wanted, where: Path) -> Pose:
     frames = len(pose.root_m)
     last = frames - 1 if wanted.last_frame is None else wanted.last_frame
     if not 0 <= wanted.first_frame <= last < frames:
-        raise BadInput("clip-frames", f"found frames 0 to {frames - 1}, expected {wanted.first_frame} to {last} among them", str(where))
+        raise BadInput(
+            "clip-frames",
+            f"found frames 0 to {frames - 1}, expected {wanted.first_frame} to {last} among them",
+            str(where),
+        )
     keep = slice(max(dropped, wanted.first_frame), last + 1)
     if len(pose.root_m[keep]) == 0:
         raise BadInput("clip-frames", "found nothing but a rest pose, expected a motion", str(where))
@@ -172,15 +209,19 @@ def _turned(pose: Pose, turn: np.ndarray) -> Pose:
 
 
 def _ball_levels(positions: np.ndarray, floor: Floor) -> np.ndarray:
-    """Heights (2,) of the balls of standing feet once the floor is level; the lowest ball's for a foot that never stands."""
+    """Heights (2,) of the balls of standing feet once the floor is level; the lowest ball's for a foot that never
+    stands."""
     heights = positions[:, list(TOES), 2]
     level = [np.median(heights[floor.planted[:, s], s]) if floor.planted[:, s].any() else np.inf for s in (0, 1)]
     return np.minimum(level, min(level)) if not np.isfinite(level).all() else np.array(level)
 
 
 def _facing_ahead(pose: Pose, floor_m: float) -> tuple[Pose, float]:
-    """The motion moved so that its first frame is over the origin and faces +X, its floor at zero; and the heading that it had."""
+    """The motion moved so that its first frame is over the origin and faces +X, its floor at zero; and the heading that
+    it had."""
     facing = float(rotations.heading(pose.rotations[0, 0]))
     shifted = Pose(pose.root_m - np.array([*pose.root_m[0, :2], floor_m]), pose.rotations)
     turned = _turned(shifted, rotations.about_z(-facing))
-    return Pose(np.ascontiguousarray(turned.root_m), np.ascontiguousarray(rotations.continuity(turned.rotations))), facing
+    return Pose(
+        np.ascontiguousarray(turned.root_m), np.ascontiguousarray(rotations.continuity(turned.rotations))
+    ), facing

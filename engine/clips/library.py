@@ -52,8 +52,15 @@ def list_clips() -> list[Listed]:
     return list(LIBRARY)
 
 
-def find_clip(name_or_path: str | Path, relative_to: str | Path | None = None, *, sex: str = "male", body_mass_kg: float | None = None) -> Clip:  # fmt: skip
-    """The clip of that library name or in that file; a relative path counts from the folder `relative_to`, else from here.
+def find_clip(
+    name_or_path: str | Path,
+    relative_to: str | Path | None = None,
+    *,
+    sex: str = "male",
+    body_mass_kg: float | None = None,
+) -> Clip:
+    """The clip of that library name or in that file; a relative path counts from the folder `relative_to`, else from
+    here.
 
     BadInput for a name or file that is not there; EnvironmentTrouble for a library clip that has not been fetched.
     """
@@ -87,4 +94,6 @@ def _file(text: str, relative_to: str | Path | None) -> Path:
         return path
     names = [listed.name for listed in LIBRARY]
     near = difflib.get_close_matches(text, names, n=len(names), cutoff=0.0)
-    raise BadInput("clip-missing", f"found no clip or file {text!r}, expected {', '.join(near)}, or a {', '.join(FORMATS)} file")
+    raise BadInput(
+        "clip-missing", f"found no clip or file {text!r}, expected {', '.join(near)}, or a {', '.join(FORMATS)} file"
+    )

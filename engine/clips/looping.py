@@ -1,11 +1,12 @@
 """Whether a clip can go round, and where it best does.
 
-Two kinds do, as an animator would have it: a steady gait (every stride like the one before) goes round over as many whole strides
-as it has, and a clip that ends standing as it began goes round whole. Anything else plays to its end and holds.
+Two kinds do, as an animator would have it: a steady gait (every stride like the one before) goes round over as many
+whole strides as it has, and a clip that ends standing as it began goes round whole. Anything else plays to its end and
+holds.
 
-The frames at which it goes round are those where pose and velocity are most alike: joints relative to the pelvis and its
-heading, in metres, and their velocities over a tenth of a second. What still differs is faded over (`engine.clips.clip.Loop`).
-"""
+The frames at which it goes round are those where pose and velocity are most alike: joints relative to the pelvis and
+its heading, in metres, and their velocities over a tenth of a second. What still differs is faded over
+(`engine.clips.clip.Loop`)."""
 
 from __future__ import annotations
 
@@ -26,7 +27,7 @@ VELOCITY_WEIGHT_S = 0.1
 GAIT_BLEND_S, STAND_BLEND_S = 0.2, 0.4
 STILL_MPS = 0.15
 # a loop may leave out this much of a gait at either end (parts of a stride), and this much of a clip that stands
-GAIT_MARGIN, STAND_MARGIN = 0.45, 0.2
+GAIT_MARGIN, STAND_MARGIN, STAND_MARGIN_S = 0.45, 0.2, 0.75
 # a heading that a gait changes by less in one round is a wobble, not a turn
 STRAIGHT_RAD = np.radians(15.0)
 MOST_CANDIDATES = 200
@@ -43,22 +44,19 @@ class Features(NamedTuple):
 def find_loop(pose: Pose, body: Body, planted: np.ndarray, fps: float) -> Loop:
     """The loop of a clip, or one that holds."""
     frames = len(pose.root_m)
-    blend_s = GAIT_BLEND_S if _is_gait(pose, body, fps) else STAND_BLEND_S
-    margin = GAIT_MARGIN if blend_s == GAIT_BLEND_S else STAND_MARGIN
-    blend = max(2, min(round(blend_s * fps), int(0.8 * margin * frames)))
-    if frames < 4 * blend + 4:
+    gait = _is_gait(pose, body, fps)
+    margin = int(GAIT_MARGIN * frames if gait else min(STAND_MARGIN * frames, STAND_MARGIN_S * fps))
+    blend = min(round((GAIT_BLEND_S if gait else STAND_BLEND_S) * fps), int(0.6 * margin))
+    if blend < 2:
         return Loop()
-    features = _features(pose, body, fps)
-    if blend_s == GAIT_BLEND_S:
-        first = np.arange(blend, int(GAIT_MARGIN * frames))
-        last = np.arange(int((1.0 - GAIT_MARGIN) * frames), frames - 2)
-    else:
+    # the motion that fades in leads up to `first`, so there must be a blend of it
+    first, last = np.arange(blend, margin), np.arange(frames - margin, frames - 2)
+    if not gait:
         still = _stands_still(pose, planted, fps)
-        first = np.arange(blend, max(blend + 1, int(STAND_MARGIN * frames)))
-        last = np.arange(int((1.0 - STAND_MARGIN) * frames), frames - 2)
         first, last = first[still[first]], last[still[last]]
     if len(first) == 0 or len(last) == 0:
         return Loop()
+    features = _features(pose, body, fps)
     found, difference = _best_pair(features, first, last, planted)
     return _loop(pose, body, features, planted, *found, blend) if difference < SEAM_DIFFERENCE_M else Loop()
 
@@ -99,8 +97,11 @@ def _stands_still(pose: Pose, planted: np.ndarray, fps: float) -> np.ndarray:
     return planted.all(axis=1) & (speed < STILL_MPS)
 
 
-def _best_pair(features: Features, first: np.ndarray, last: np.ndarray, planted: np.ndarray) -> tuple[tuple[int, int], float]:
-    """The pair of frames most alike, a longer loop preferred a little: a coarse search, then a fine one around its best."""
+def _best_pair(
+    features: Features, first: np.ndarray, last: np.ndarray, planted: np.ndarray
+) -> tuple[tuple[int, int], float]:
+    """The pair of frames most alike, a longer loop preferred a little: a coarse search, then a fine one around its
+    best."""
     stride = max(1, (len(first) + len(last)) // (2 * MOST_CANDIDATES))
     pair = _search(features, first[::stride], last[::stride], planted)
     near = (first[np.abs(first - pair[0]) <= stride], last[np.abs(last - pair[1]) <= stride])
@@ -121,7 +122,8 @@ def _search(features: Features, first: np.ndarray, last: np.ndarray, planted: np
 
 
 def _loop(pose: Pose, body: Body, features: Features, planted: np.ndarray, first: int, last: int, blend: int) -> Loop:
-    """The loop with what one round adds to the path: where `last` is, seen from `first`; by the standing feet, so that they do not slide."""
+    """The loop with what one round adds to the path: where `last` is, seen from `first`; by the standing feet, so that
+    they do not slide."""
     yaw = float(features.heading[last] - features.heading[first])
     if abs(yaw) < STRAIGHT_RAD:
         yaw = 0.0

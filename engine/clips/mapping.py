@@ -1,12 +1,11 @@
 """From a file's joints to the canonical 21, keeping the subject's own bones.
 
-The world orientation of a canonical joint is the source joint's world orientation times a constant *alignment*, found from the
-rest pose, that takes "arms hanging, palms in, legs straight, feet ahead" to the identity. Where several source joints make one
-(spine, neck, forearm), it is the last of them, then swung the least that points the bone at the next joint's true place, so
-that shortening the chain costs millimetres. Elbows and knees end up bending about their own Y: what the rest pose says of
-that axis is corrected once for the clip, and what is left is turned back frame by frame, as far as the limb is bent, by
-turning the upper bone about itself, which moves no joint.
-"""
+The world orientation of a canonical joint is the source joint's world orientation times a constant *alignment*, found
+from the rest pose, that takes "arms hanging, palms in, legs straight, feet ahead" to the identity. Where several source
+joints make one (spine, neck, forearm), it is the last of them, then swung the least that points the bone at the next
+joint's true place, so that shortening the chain costs millimetres. Elbows and knees end up bending about their own Y:
+what the rest pose says of that axis is corrected once for the clip, and what is left is turned back frame by frame, as
+far as the limb is bent, by turning the upper bone about itself, which moves no joint."""
 
 from __future__ import annotations
 
@@ -56,7 +55,8 @@ class Mapped:
     head_top_m: np.ndarray | None
     fingertip_m: np.ndarray | None
     missing: tuple[str, ...]  # canonical joints that the file has no joint for
-    hinge_residual_deg: float  # how far from its Y axis a well-bent elbow or knee of the file bends, 95th percentile, before it is put right
+    # how far from its Y axis a well-bent elbow or knee of the file bends, 95th percentile, before it is put right
+    hinge_residual_deg: float
     position_error_m: float  # how far a joint that both have lies from where the file has it, at most
 
 
@@ -109,8 +109,16 @@ def _rows(rig: Rig, rest: np.ndarray, height_m: float) -> dict[int, int]:
         rows[NECK] = rig.neck[0]
     if len(rig.neck) > 1:
         rows[HEAD] = rig.neck[-1]
-    limbs = ((CLAVICLES, rig.collar), (SHOULDERS, rig.shoulder), (ELBOWS, rig.elbow), (WRISTS, rig.wrist),
-             (HIPS, rig.hip), (KNEES, rig.knee), (ANKLES, rig.ankle), (TOES, rig.toe))  # fmt: skip
+    limbs = (
+        (CLAVICLES, rig.collar),
+        (SHOULDERS, rig.shoulder),
+        (ELBOWS, rig.elbow),
+        (WRISTS, rig.wrist),
+        (HIPS, rig.hip),
+        (KNEES, rig.knee),
+        (ANKLES, rig.ankle),
+        (TOES, rig.toe),
+    )
     for joints, found in limbs:
         for side in (0, 1):
             if found[side] is not None:
@@ -124,7 +132,8 @@ def _missing(rows: dict[int, int], rig: Rig) -> tuple[str, ...]:
 
 
 def _rest_joints(source: Source, rig: Rig, rows: dict[int, int], height_m: float) -> dict[int, np.ndarray]:
-    """Where every canonical joint lies in the file's rest pose (3,); those that it lacks are filled in from anthropometry."""
+    """Where every canonical joint lies in the file's rest pose (3,); those that it lacks are filled in from
+    anthropometry."""
     rest = {j: source.rest[row] for j, row in rows.items()}
     if WAIST not in rest:
         # half way along the lowest bone of the spine is where a person bends
@@ -147,7 +156,8 @@ def _rest_joints(source: Source, rig: Rig, rows: dict[int, int], height_m: float
 
 
 def _toe_on_the_way(tip: np.ndarray, height_m: float) -> np.ndarray:
-    """The toe joint of a foot without one: where its bone ends, if that is at the ball; a share of the way, if at the toes' tips."""
+    """The toe joint of a foot without one: where its bone ends, if that is at the ball; a share of the way, if at the
+    toes' tips."""
     reach = float(np.hypot(tip[0], tip[1])) / (height_m * BUILD["male"].foot)
     if reach < BALL_AHEAD + 0.5 * TOE_AHEAD:
         return tip
@@ -161,11 +171,15 @@ def _unit(v: np.ndarray) -> np.ndarray:
 
 
 def _alignments(source: Source, rig: Rig, rest: dict[int, np.ndarray]) -> np.ndarray:
-    """(21, 4) what turns a canonical joint's frame into the source's rest pose: bones of limbs along -Z, hinges about Y."""
+    """(21, 4) what turns a canonical joint's frame into the source's rest pose: bones of limbs along -Z, hinges about
+    Y."""
     alignment = np.tile(IDENTITY, (JOINT_COUNT, 1))
     for side in (0, 1):
-        upper, fore = (_unit(rest[b] - rest[a]) for a, b in ((SHOULDERS[side], ELBOWS[side]), (ELBOWS[side], WRISTS[side])))
-        # from hanging arms to the rest pose's the short way: a T-pose then has its palms down, as it does in every convention met
+        upper, fore = (
+            _unit(rest[b] - rest[a]) for a, b in ((SHOULDERS[side], ELBOWS[side]), (ELBOWS[side], WRISTS[side]))
+        )
+        # from hanging arms to the rest pose's the short way: a T-pose then has its palms down, as it does in every
+        # convention met
         alignment[SHOULDERS[side]] = rotations.between(DOWN, upper)
         alignment[ELBOWS[side]] = rotations.multiply(rotations.between(upper, fore), alignment[SHOULDERS[side]])
         hand = _unit(_hand(source, rig, side, fore))
@@ -193,7 +207,8 @@ def _foot(source: Source, rig: Rig, side: int) -> np.ndarray:
 
 
 def _foot_alignment(foot: np.ndarray, shin: np.ndarray) -> np.ndarray:
-    """A foot that is level fore and aft in the rest pose, tilted sideways with a splayed leg, toes where the foot points."""
+    """A foot that is level fore and aft in the rest pose, tilted sideways with a splayed leg, toes where the foot
+    points."""
     splay = rotations.between(DOWN, _unit(np.array([0.0, shin[1], shin[2]])))
     flat = rotations.unrotate(splay, foot)
     return rotations.multiply(splay, rotations.about_z(np.arctan2(flat[1], flat[0])))
@@ -233,7 +248,8 @@ def _offsets(rest: dict[int, np.ndarray], alignment: np.ndarray) -> np.ndarray:
 
 
 def _straighten_hinges(turned: np.ndarray, places: dict[int, np.ndarray]) -> float:
-    """Turns upper arms and thighs about themselves so that elbows and knees bend about Y. Returns the residual, degrees.
+    """Turns upper arms and thighs about themselves so that elbows and knees bend about Y. Returns the residual,
+    degrees.
 
     First by one constant angle for the clip, then frame by frame by what is left, faded in with the bend.
     """
@@ -252,22 +268,28 @@ def _straighten_hinges(turned: np.ndarray, places: dict[int, np.ndarray]) -> flo
         left = (astray - constant + np.pi) % (2.0 * np.pi) - np.pi
         residuals.append(np.abs(left[bend > HINGE_SURE_RAD]))
         sure = np.clip((bend - HINGE_UNSURE_RAD) / (HINGE_SURE_RAD - HINGE_UNSURE_RAD), 0.0, 1.0)
-        turned[:, upper] = rotations.multiply(turned[:, upper], rotations.about_z(constant + left * sure**2 * (3.0 - 2.0 * sure)))
+        turned[:, upper] = rotations.multiply(
+            turned[:, upper], rotations.about_z(constant + left * sure**2 * (3.0 - 2.0 * sure))
+        )
     every = np.concatenate(residuals)
     return float(np.degrees(np.percentile(every, 95)))
 
 
 def _hinge_error(upper: np.ndarray, bone: np.ndarray, ahead: float) -> tuple[np.ndarray, np.ndarray]:
-    """How far (F,) about the upper bone the lower one lies from where a hinge about Y puts it, and how far it is bent. Radians."""
+    """How far (F,) about the upper bone the lower one lies from where a hinge about Y puts it, and how far it is bent.
+    Radians."""
     local = rotations.unrotate(upper, bone)
     return np.arctan2(ahead * local[:, 1], ahead * local[:, 0]), np.arccos(np.clip(-local[:, 2], -1.0, 1.0))
 
 
 def _aim(turned: np.ndarray, places: dict[int, np.ndarray], offset: np.ndarray) -> None:
-    """Swings every single bone the least that points it at its next joint's true place, the joint itself being where FK puts it."""
+    """Swings every single bone the least that points it at its next joint's true place, the joint itself being where FK
+    puts it."""
     at = {PELVIS: places[PELVIS]}
     single = {WAIST: BACK, NECK: HEAD}
-    single |= {a[s]: b[s] for a, b in ((SHOULDERS, ELBOWS), (ELBOWS, WRISTS), (HIPS, KNEES), (KNEES, ANKLES)) for s in (0, 1)}
+    single |= {
+        a[s]: b[s] for a, b in ((SHOULDERS, ELBOWS), (ELBOWS, WRISTS), (HIPS, KNEES), (KNEES, ANKLES)) for s in (0, 1)
+    }
     for j in range(1, JOINT_COUNT):
         parent = PARENT[j]
         if not np.isfinite(offset[j]).all():
@@ -288,8 +310,11 @@ def _locals(turned: np.ndarray) -> np.ndarray:
     return rotations.continuity(rotations.normalise(local))
 
 
-def _extents(source: Source, rig: Rig, alignment: np.ndarray, height_m: float) -> tuple[np.ndarray | None, np.ndarray | None]:
-    """Crown (3,) and fingertips (2, 3) where the file ends its head and hands at a human distance; else None for anthropometry."""
+def _extents(
+    source: Source, rig: Rig, alignment: np.ndarray, height_m: float
+) -> tuple[np.ndarray | None, np.ndarray | None]:
+    """Crown (3,) and fingertips (2, 3) where the file ends its head and hands at a human distance; else None for
+    anthropometry."""
     top = source.tips.get(rig.neck[-1]) if len(rig.neck) > 1 else None
     if top is not None and not (0.07 < top[2] / height_m < 0.12 and abs(top[0]) < 0.5 * top[2]):
         top = None

@@ -1,8 +1,9 @@
-"""Humanoid motions as numpy archives (.npz): the position and rotation of each of fifteen bodies in the world, Z up, metres.
+"""Humanoid motions as numpy archives (.npz): the position and rotation of each of fifteen bodies in the world, Z up,
+metres.
 
-The bodies are those of the humanoid of DeepMimic (Peng et al. 2018): every body frame is parallel to the world when the figure
-stands with its arms hanging, facing +X. The files store no tree and no joint offsets; both follow from the bodies.
-"""
+The bodies are those of the humanoid of DeepMimic (Peng et al. 2018): every body frame is parallel to the world when the
+figure stands with its arms hanging, facing +X. The files store no tree and no joint offsets; both follow from the
+bodies."""
 
 from __future__ import annotations
 
@@ -15,13 +16,14 @@ from engine.clips.tracks import Tracks
 from engine.core.errors import BadInput
 from engine.maths import rotations
 
-PARENT_OF = {
-    "pelvis": None, "torso": "pelvis", "head": "torso",
+PARENT_OF: dict[str, str] = {
+    "torso": "pelvis", "head": "torso",
     "right_upper_arm": "torso", "right_lower_arm": "right_upper_arm", "right_hand": "right_lower_arm",
     "left_upper_arm": "torso", "left_lower_arm": "left_upper_arm", "left_hand": "left_lower_arm",
     "right_thigh": "pelvis", "right_shin": "right_thigh", "right_foot": "right_shin",
     "left_thigh": "pelvis", "left_shin": "left_thigh", "left_foot": "left_shin",
 }  # fmt: skip
+ROOT = "pelvis"
 NEEDED = ("fps", "body_names", "body_positions", "body_rotations")
 
 
@@ -32,12 +34,14 @@ def read_npz(path: str | Path) -> Tracks:
     names = _body_names(arrays, path)
     positions, turns = _bodies(arrays, names, path)
     positions, turns, fps, notes = _without_repeats(positions, turns, _rate(arrays, path))
-    parents = np.array([names.index(PARENT_OF[name]) if PARENT_OF[name] else -1 for name in names])
+    parents = np.array([names.index(PARENT_OF[name]) if name != ROOT else -1 for name in names])
     offsets, locals_ = np.zeros((len(names), 3)), turns.copy()
     for row, parent in enumerate(parents):
         if parent >= 0:
             # the stored figures are rounded; the median over the frames is the bone
-            offsets[row] = np.median(rotations.unrotate(turns[:, parent], positions[:, row] - positions[:, parent]), axis=0)
+            offsets[row] = np.median(
+                rotations.unrotate(turns[:, parent], positions[:, row] - positions[:, parent]), axis=0
+            )
             locals_[:, row] = rotations.multiply(rotations.conjugate(turns[:, parent]), turns[:, row])
     return Tracks("npz", tuple(names), parents, offsets, positions[:, 0], locals_, fps, scale_to_m=1.0, notes=notes)
 
@@ -67,11 +71,12 @@ def _rate(arrays: dict[str, np.ndarray], path: Path) -> float:
 def _body_names(arrays: dict[str, np.ndarray], path: Path) -> list[str]:
     """The names in file order, which must have the pelvis first and parents before children."""
     names = [str(name) for name in arrays["body_names"].reshape(-1)]
-    if sorted(names) != sorted(PARENT_OF):
-        odd = sorted(set(names) ^ set(PARENT_OF)) or ["a name twice"]
-        raise _bad(path, f"body_names that differ by {', '.join(odd)}", f"{len(PARENT_OF)} bodies: {', '.join(PARENT_OF)}")
+    wanted = [ROOT, *PARENT_OF]
+    if sorted(names) != sorted(wanted):
+        odd = sorted(set(names) ^ set(wanted)) or ["a name twice"]
+        raise _bad(path, f"body_names that differ by {', '.join(odd)}", f"{len(wanted)}: {', '.join(wanted)}")
     for row, name in enumerate(names):
-        if PARENT_OF[name] is not None and names.index(PARENT_OF[name]) > row:
+        if name != ROOT and names.index(PARENT_OF[name]) > row:
             raise _bad(path, f"{name!r} before {PARENT_OF[name]!r}", "parents first")
     return names
 
@@ -81,7 +86,9 @@ def _bodies(arrays: dict[str, np.ndarray], names: list[str], path: Path) -> tupl
     frames = len(positions) if positions.ndim else 0
     for label, array, width in (("body_positions", positions, 3), ("body_rotations", turns, 4)):
         if frames == 0 or array.shape != (frames, len(names), width) or array.dtype.kind not in "fiu":
-            raise _bad(path, f"{label} of shape {array.shape}", f"({frames or 'frames'}, {len(names)}, {width}) numbers")
+            raise _bad(
+                path, f"{label} of shape {array.shape}", f"({frames or 'frames'}, {len(names)}, {width}) numbers"
+            )
         if not np.isfinite(array).all():
             frame, body = np.argwhere(~np.isfinite(array))[0][:2]
             raise _bad(path, f"{label} not finite in frame {frame} at {names[body]!r}", "finite numbers")
@@ -91,9 +98,14 @@ def _bodies(arrays: dict[str, np.ndarray], names: list[str], path: Path) -> tupl
     return positions.astype(float), rotations.normalise(turns)
 
 
-def _without_repeats(positions: np.ndarray, turns: np.ndarray, fps: float) -> tuple[np.ndarray, np.ndarray, float, tuple[str, ...]]:
-    """A motion brought to a higher rate by storing every frame n times would move in jerks: one of each is kept, at fps / n."""
-    same = (np.abs(np.diff(positions, axis=0)).max(axis=(1, 2)) < 1e-7) & (np.abs(np.diff(turns, axis=0)).max(axis=(1, 2)) < 1e-7)
+def _without_repeats(
+    positions: np.ndarray, turns: np.ndarray, fps: float
+) -> tuple[np.ndarray, np.ndarray, float, tuple[str, ...]]:
+    """A motion brought to a higher rate by storing every frame n times would move in jerks: one of each is kept, at fps
+    / n."""
+    same = (np.abs(np.diff(positions, axis=0)).max(axis=(1, 2)) < 1e-7) & (
+        np.abs(np.diff(turns, axis=0)).max(axis=(1, 2)) < 1e-7
+    )
     for times in (4, 3, 2):
         repeats = np.arange(1, len(positions)) % times != 0
         if len(positions) >= 4 * times and same[repeats].all() and not same.all():

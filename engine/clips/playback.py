@@ -14,8 +14,8 @@ from engine.clips.clip import Clip
 def sample(clip: Clip, time_s: float) -> Pose:
     """The pose at a time from the clip's start; root_m (3,), rotations (21, 4).
 
-    After its end a looping clip goes on, its path too (a walk walks on); any other holds its last pose. Before its start: the first.
-    """
+    After its end a looping clip goes on, its path too (a walk walks on); any other holds its last pose. Before its
+    start: the first."""
     root_m, local = np.empty(3), np.empty((JOINT_COUNT, 4))
     sample_into(clip.pose.root_m, clip.pose.rotations, clip.fps, clip.loop, float(time_s), root_m, local)
     return Pose(root_m, local)
@@ -24,7 +24,7 @@ def sample(clip: Clip, time_s: float) -> Pose:
 def planted_at(clip: Clip, time_s: float) -> np.ndarray:
     """Which feet stand at a time: (2,) bool, left and right."""
     frame, _, incoming, weight = where_in_loop(clip.frames, clip.fps, clip.loop, float(time_s))
-    nearest = int(round(incoming if weight > 0.5 else frame))
+    nearest = round(incoming if weight > 0.5 else frame)
     return clip.planted[min(max(nearest, 0), clip.frames - 1)].copy()
 
 
@@ -48,7 +48,8 @@ def where_in_loop(frames, fps, loop, time_s):
 
 @njit(cache=True)
 def path_after(loop, rounds):
-    """What a number of rounds has carried the path on by: (x, y, yaw), the sum of a geometric series of turned steps."""
+    """What a number of rounds has carried the path on by: (x, y, yaw), the sum of a geometric series of turned
+    steps."""
     x, y, yaw = loop[3], loop[4], loop[5]
     if abs(yaw) < 1e-9:
         return rounds * x, rounds * y, 0.0
@@ -73,11 +74,11 @@ def sample_into(root_m, rotations, fps, loop, time_s, out_root_m, out_rotations)
 
 @njit(cache=True)
 def _between_frames(root_m, rotations, frame, out_root_m, out_rotations):
-    """Catmull-Rom through the four frames around, so that velocities are continuous too: root and quaternion components alike.
+    """Catmull-Rom through the four frames around, so that velocities are continuous too: root and quaternion components
+    alike.
 
-    Neighbouring quaternions lie in one hemisphere and a few degrees apart, where the normalised cubic and a slerp differ by less
-    than their frames' noise; the slerp's velocity would jump at every frame of a 30 Hz clip.
-    """
+    Neighbouring quaternions lie in one hemisphere and a few degrees apart, where the normalised cubic and a slerp
+    differ by less than their frames' noise; the slerp's velocity would jump at every frame of a 30 Hz clip."""
     count = len(root_m)
     k = min(int(frame), max(count - 2, 0))
     t = frame - k
@@ -94,7 +95,10 @@ def _between_frames(root_m, rotations, frame, out_root_m, out_rotations):
     for j in range(out_rotations.shape[0]):
         for i in range(4):
             out_rotations[j, i] = (
-                w0 * rotations[before, j, i] + w1 * rotations[k, j, i] + w2 * rotations[next_, j, i] + w3 * rotations[after, j, i]
+                w0 * rotations[before, j, i]
+                + w1 * rotations[k, j, i]
+                + w2 * rotations[next_, j, i]
+                + w3 * rotations[after, j, i]
             )
 
 

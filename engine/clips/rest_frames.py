@@ -14,11 +14,11 @@ SEARCHED_S = 0.25
 
 
 def rest_frames(local: np.ndarray, orientations: np.ndarray, file_rotations: np.ndarray, fps: float) -> int:
-    """How many frames to drop. local, orientations: (F, 21, 4) on the canonical skeleton; file_rotations (F, J, 4) as in the file.
+    """How many frames to drop. local, orientations: (F, 21, 4) on the canonical skeleton; file_rotations (F, J, 4) as
+    in the file.
 
-    Only a clip whose first frame is a rest pose (arms straight out to the sides on straight legs, or every joint of the file at
-    zero) loses any, and only up to the last jump that leads away from it.
-    """
+    Only a clip whose first frame is a rest pose (arms straight out to the sides on straight legs, or every joint of the
+    file at zero) loses any, and only up to the last jump that leads away from it."""
     if len(local) < 2 or not (_is_t_pose(local[0], orientations[0]) or _is_zero(file_rotations[0])):
         return 0
     searched = min(len(local) - 1, max(2, round(SEARCHED_S * fps)))

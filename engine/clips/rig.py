@@ -1,8 +1,8 @@
 """Which joint of a file is which part of a person, told from the tree and from the few names that every convention has.
 
-Knees, feet, elbows, hands and head are known by name; everything else by where it hangs: the pelvis is where the legs meet, the
-chest where the arms meet, an upper arm is what carries a forearm, a collar bone what lies between chest and upper arm.
-"""
+Knees, feet, elbows, hands and head are known by name; everything else by where it hangs: the pelvis is where the legs
+meet, the chest where the arms meet, an upper arm is what carries a forearm, a collar bone what lies between chest and
+upper arm."""
 
 from __future__ import annotations
 
@@ -43,7 +43,8 @@ class Rig:
 
 
 def part_of(name: str) -> tuple[int | None, str]:
-    """The side (0 left, 1 right, None) and the bare part that a joint's name tells: "mixamorig:LeftUpLeg" -> (0, "upleg")."""
+    """The side (0 left, 1 right, None) and the bare part that a joint's name tells: "mixamorig:LeftUpLeg" -> (0,
+    "upleg")."""
     bare = name.rsplit(":", 1)[-1]
     spaced = re.sub(r"(?<=[a-z0-9])(?=[A-Z])", " ", re.sub(r"[^A-Za-z0-9]+", " ", bare))
     words = spaced.lower().split()
@@ -63,42 +64,63 @@ def part_of(name: str) -> tuple[int | None, str]:
 
 def find_rig(tracks: Tracks, where: Path) -> Rig:
     """The parts of the body among the joints of a file. BadInput names what could not be found and what there is."""
-    parts = [part_of(name) for name in tracks.names]
-
-    def needed(names: set[str], side: int, what: str) -> int:
-        for row, part in enumerate(parts):
-            if part[0] == side and part[1] in names:
-                return row
-        label = ("left", "right")[side]
-        found = ", ".join(tracks.names[:12]) + (" ..." if len(tracks.names) > 12 else "")
-        raise BadInput("clip-skeleton", f"found joints {found}, expected a {label} {what} among them", str(where))
-
-    def below(start: int, names: set[str], side: int | None) -> list[int]:
-        return [r for r, part in enumerate(parts) if part == (side, part[1]) and part[1] in names and start in ancestors(tracks, r)]
-
-    knee = (needed(KNEE, 0, "knee"), needed(KNEE, 1, "knee"))
-    elbow = (needed(ELBOW, 0, "elbow"), needed(ELBOW, 1, "elbow"))
-    ankle = tuple(_first(below(knee[s], FOOT, s), "foot", s, tracks, where) for s in (0, 1))
-    toe = tuple(next(iter(below(ankle[s], TOE, s)), None) for s in (0, 1))
-    # of several hands and wrists the last is the one that the palm turns with
-    hands = [[row for row in below(elbow[s], HAND, s) if row != elbow[s]] for s in (0, 1)]
-    wrist = tuple(rows[-1] if rows else None for rows in hands)
-    forearm = tuple(int(tracks.parents[w]) if w is not None else elbow[s] for s, w in enumerate(wrist))
+    named = Named(tracks, tuple(part_of(name) for name in tracks.names), where)
+    knee, elbow = (named.needed(KNEE, 0), named.needed(KNEE, 1)), (named.needed(ELBOW, 0), named.needed(ELBOW, 1))
     pelvis, chest = _meet(tracks, knee), _meet(tracks, elbow)
     spine = [row for row in reversed(ancestors(tracks, chest)) if row not in ancestors(tracks, pelvis)]
     if not spine:
-        raise BadInput("clip-skeleton", "found arms and legs on the same joint, expected a spine between them", str(where))
-    shoulder = tuple(int(tracks.parents[row]) for row in elbow)
-    collar = tuple(int(tracks.parents[row]) if tracks.parents[row] != chest else None for row in shoulder)
-    return Rig(pelvis, tuple(spine), _neck(tracks, parts, chest), collar, shoulder, elbow, forearm, wrist,
-               tuple(int(tracks.parents[row]) for row in knee), knee, ankle, toe)  # type: ignore[arg-type]  # fmt: skip
+        raise named.bad("arms and legs on the same joint", "a spine between them")
+    collar, shoulder, forearm, wrist = zip(*(_arm(named, elbow[side], side, chest) for side in (0, 1)), strict=True)
+    hip, ankle, toe = zip(*(_leg(named, knee[side], side) for side in (0, 1)), strict=True)
+    neck = _neck(named, chest)
+    return Rig(pelvis, tuple(spine), neck, collar, shoulder, elbow, forearm, wrist, hip, knee, ankle, toe)
 
 
-def _first(rows: list[int], what: str, side: int, tracks: Tracks, where: Path) -> int:
-    if not rows:
-        found = f"found no {('left', 'right')[side]} {what} below the knee among {', '.join(tracks.names[:12])}"
-        raise BadInput("clip-skeleton", f"{found}, expected one", str(where))
-    return rows[0]
+@dataclass(frozen=True)
+class Named:
+    """A file's joints with what their names tell."""
+
+    tracks: Tracks
+    parts: tuple[tuple[int | None, str], ...]
+    where: Path
+
+    def needed(self, names: set[str], side: int) -> int:
+        """The first joint of that side and name; BadInput if there is none."""
+        for row, part in enumerate(self.parts):
+            if part[0] == side and part[1] in names:
+                return row
+        listed = ", ".join(self.tracks.names[:12]) + (" ..." if len(self.tracks.names) > 12 else "")
+        raise self.bad(f"joints {listed}", f"a {('left', 'right')[side]} {' or '.join(sorted(names)[:3])} among them")
+
+    def below(self, start: int, names: set[str], side: int | None) -> list[int]:
+        """The joints of that side and name that hang on another."""
+        fitting = [row for row, part in enumerate(self.parts) if part[0] == side and part[1] in names and row != start]
+        return [row for row in fitting if start in ancestors(self.tracks, row)]
+
+    def bad(self, found: str, expected: str) -> BadInput:
+        return BadInput("clip-skeleton", f"found {found}, expected {expected}", str(self.where))
+
+
+def _arm(named: Named, elbow: int, side: int, chest: int) -> tuple[int | None, int, int, int | None]:
+    """Collar bone, upper arm, last turning joint of the forearm, wrist."""
+    parents = named.tracks.parents
+    shoulder = int(parents[elbow])
+    if shoulder == chest:
+        raise named.bad(f"{named.tracks.names[elbow]} on the chest itself", "an upper arm between them")
+    # of several hands and wrists the last is the one that the palm turns with
+    hands = named.below(elbow, HAND, side)
+    wrist = hands[-1] if hands else None
+    collar = int(parents[shoulder]) if parents[shoulder] != chest else None
+    return collar, shoulder, int(parents[wrist]) if wrist is not None else elbow, wrist
+
+
+def _leg(named: Named, knee: int, side: int) -> tuple[int, int, int | None]:
+    """Thigh, foot, toe."""
+    feet = named.below(knee, FOOT, side)
+    if not feet:
+        raise named.bad(f"nothing called foot or ankle below {named.tracks.names[knee]}", "one")
+    toes = named.below(feet[0], TOE, side)
+    return int(named.tracks.parents[knee]), feet[0], toes[0] if toes else None
 
 
 def _meet(tracks: Tracks, pair: tuple[int, int]) -> int:
@@ -107,20 +129,22 @@ def _meet(tracks: Tracks, pair: tuple[int, int]) -> int:
     return next(row for row in ancestors(tracks, pair[0]) if row in right)
 
 
-def _neck(tracks: Tracks, parts: list[tuple[int | None, str]], chest: int) -> tuple[int, ...]:
-    heads = [row for row, part in enumerate(parts) if part == (None, part[1]) and part[1] in HEAD and chest in ancestors(tracks, row)]
+def _neck(named: Named, chest: int) -> tuple[int, ...]:
+    """The joints above the chest up to the head."""
+    heads = named.below(chest, HEAD, None)
     if not heads:
         return ()
-    return tuple(row for row in reversed(ancestors(tracks, heads[0])) if row not in ancestors(tracks, chest))
+    below = ancestors(named.tracks, chest)
+    return tuple(row for row in reversed(ancestors(named.tracks, heads[0])) if row not in below)
 
 
 def restore_dropped_bones(tracks: Tracks, rig: Rig) -> Tracks:
-    """Puts back the two bones that a common converter from Acclaim to BVH loses, so that neck and hands are where they belong.
+    """Puts back the two bones that a common converter from Acclaim to BVH loses, so that neck and hands are where they
+    belong.
 
-    It writes the thorax and the last third of the forearm with no length (neck and shoulders then lie 12 cm too low). Their
-    rotations are all there; their lengths follow from their neighbours: the thorax is as long as the bone below it, and the
-    forearm's last third half as long as its first two.
-    """
+    It writes the thorax and the last third of the forearm with no length (neck and shoulders then lie 12 cm too low).
+    Their rotations are all there; their lengths follow from their neighbours: the thorax is as long as the bone below
+    it, and the forearm's last third half as long as its first two."""
     offsets = tracks.offsets.copy()
     notes = list(tracks.notes)
     chest = rig.spine[-1]
@@ -133,4 +157,6 @@ def restore_dropped_bones(tracks: Tracks, rig: Rig) -> Tracks:
             carrier = int(tracks.parents[wrist])
             offsets[wrist] = 0.5 * offsets[carrier]
             notes.append(f"bone {tracks.names[carrier]} has no length; given half that of the forearm before it")
-    return replace(tracks, offsets=offsets, notes=tuple(notes)) if not np.array_equal(offsets, tracks.offsets) else tracks
+    return (
+        replace(tracks, offsets=offsets, notes=tuple(notes)) if not np.array_equal(offsets, tracks.offsets) else tracks
+    )

@@ -1,8 +1,8 @@
-"""`sway`: a person who stands, shifts weight and breathes. Made here from a few sines, so that everything works without any file.
+"""`sway`: a person who stands, shifts weight and breathes. Made here from a few sines, so that everything works without
+any file.
 
-Every angle and path is a sum of harmonics of one period, so the clip goes round without a seam. The feet never move: the pelvis
-is what sways, and the legs follow in closed form (two bones, law of cosines).
-"""
+Every angle and path is a sum of harmonics of one period, so the clip goes round without a seam. The feet never move:
+the pelvis is what sways, and the legs follow in closed form (two bones, law of cosines)."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ import hashlib
 
 import numpy as np
 
-from engine.body.anthropometry import stature_m, standard_body
+from engine.body.anthropometry import standard_body, stature_m
 from engine.body.skeleton import (
     ANKLES,
     BACK,
@@ -58,7 +58,9 @@ def sway(sex: str = "male", body_mass_kg: float | None = None) -> Clip:
     return Clip("sway", FPS, pose, body, planted, loop, _report(body, frames), key)
 
 
-def _euler(phase: np.ndarray, x: np.ndarray | float = 0.0, y: np.ndarray | float = 0.0, z: np.ndarray | float = 0.0) -> np.ndarray:
+def _euler(
+    phase: np.ndarray, x: np.ndarray | float = 0.0, y: np.ndarray | float = 0.0, z: np.ndarray | float = 0.0
+) -> np.ndarray:
     """Rotations (F, 4) about X, then Y, then Z of the parent, degrees."""
     angles = np.stack(np.broadcast_arrays(np.zeros_like(phase), z, y, x), axis=-1)[:, 1:]
     return rotations.from_euler("ZYX", np.radians(angles))
@@ -74,7 +76,8 @@ def _pelvis_path(phase: np.ndarray, body: Body) -> np.ndarray:
 
 
 def _upper_body(phase: np.ndarray) -> np.ndarray:
-    """(F, 21, 4): the trunk stays over the feet while the pelvis sways, the chest breathes twice a period, the arms hang."""
+    """(F, 21, 4): the trunk stays over the feet while the pelvis sways, the chest breathes twice a period, the arms
+    hang."""
     local = np.tile([1.0, 0.0, 0.0, 0.0], (len(phase), JOINT_COUNT, 1))
     breath = 0.5 - 0.5 * np.cos(2 * phase)
     local[:, WAIST] = _euler(phase, x=-1.6 * np.sin(phase), y=0.5, z=-1.2 * np.sin(phase))
@@ -116,8 +119,23 @@ def _stand(local: np.ndarray, root_m: np.ndarray, body: Body, side: int) -> None
 def _report(body: Body, frames: int) -> ImportReport:
     leg = -(body.offset_m[KNEES[0], 2] + body.offset_m[ANKLES[0], 2])
     return ImportReport(
-        name="sway", format="synthetic", frames=frames, fps=FPS, duration_s=(frames - 1) / FPS, source_joints=JOINT_COUNT,
-        scale_to_m=1.0, up_axis="+Z", leg_length_m=float(leg), height_m=stature_m(body.offset_m), floor_m=0.0, floor_slope=0.0,
-        facing_deg=0.0, rest_frames_dropped=0, planted={side: [[0, frames - 1]] for side in ("left", "right")},
-        missing_joints=[], hinge_residual_deg=0.0, position_error_m=0.0, notes=["made by Brace itself"],
-    )  # fmt: skip
+        name="sway",
+        format="synthetic",
+        frames=frames,
+        fps=FPS,
+        duration_s=(frames - 1) / FPS,
+        source_joints=JOINT_COUNT,
+        scale_to_m=1.0,
+        up_axis="+Z",
+        leg_length_m=float(leg),
+        height_m=stature_m(body.offset_m),
+        floor_m=0.0,
+        floor_slope=0.0,
+        facing_deg=0.0,
+        rest_frames_dropped=0,
+        planted={side: [[0, frames - 1]] for side in ("left", "right")},
+        missing_joints=[],
+        hinge_residual_deg=0.0,
+        position_error_m=0.0,
+        notes=["made by Brace itself"],
+    )

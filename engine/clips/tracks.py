@@ -1,4 +1,5 @@
-"""What a motion file says, before anyone has asked what it means: a tree of named joints and how each turned in every frame.
+"""What a motion file says, before anyone has asked what it means: a tree of named joints and how each turned in every
+frame.
 
 Readers (bvh, acclaim, npz) end file conventions here: radians, quaternions, one tree. What stays the file's own is its
 length unit and its axes, which `engine.clips.mapping` finds out from the figure itself.
@@ -26,7 +27,8 @@ class Tracks:
     root: np.ndarray  # (F, 3) the root in the world, file units and axes
     rotations: np.ndarray  # (F, J, 4) w x y z, local to parent; all identities are the rest pose
     fps: float
-    tips: dict[int, np.ndarray] = field(default_factory=dict)  # joint row -> (3,) where its last bone ends, in its frame
+    # joint row -> (3,) where its last bone ends, in its frame
+    tips: dict[int, np.ndarray] = field(default_factory=dict)
     scale_to_m: float | None = None  # metres for one file unit, where the format says so
     notes: tuple[str, ...] = ()  # what the reader had to decide, in plain words
 
@@ -64,11 +66,14 @@ def ancestors(tracks: Tracks, joint: int) -> list[int]:
 
 
 def read_lines(path: Path) -> list[str]:
-    """The lines of a text file whatever ends them (LF, CRLF, CR, or a mixture). BadInput if it is no text or not there."""
+    """The lines of a text file whatever ends them (LF, CRLF, CR, or a mixture). BadInput if it is no text or not
+    there."""
     try:
         raw = path.read_bytes()
     except OSError as trouble:
-        raise BadInput("clip-unreadable", f"found no readable file ({trouble.strerror}), expected a clip", str(path)) from None
+        raise BadInput(
+            "clip-unreadable", f"found no readable file ({trouble.strerror}), expected a clip", str(path)
+        ) from None
     if b"\0" in raw:
         raise BadInput("clip-not-text", "found binary data, expected a text file", str(path))
     text = raw.decode("utf-8-sig", errors="replace")

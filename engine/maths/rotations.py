@@ -1,7 +1,8 @@
-"""Whole arrays of unit quaternions at once: shapes (..., 4), components w x y z, active. `multiply(a, b)` applies b first.
+"""Whole arrays of unit quaternions at once: shapes (..., 4), components w x y z, active. `multiply(a, b)` applies b
+first.
 
-The plain-numpy twin of `engine.maths.quaternion` for work done once, at import, at set-up, in tests. Leading axes broadcast.
-"""
+The plain-numpy twin of `engine.maths.quaternion` for work done once, at import, at set-up, in tests. Leading axes
+broadcast."""
 
 from __future__ import annotations
 
@@ -51,13 +52,12 @@ def unrotate(q: np.ndarray, v: np.ndarray) -> np.ndarray:
 
 def from_axis_angle(axis: np.ndarray, angle_rad: np.ndarray | float) -> np.ndarray:
     """Rotations by angles (...) about unit axes (..., 3)."""
-    axis, half = np.asarray(axis, float), 0.5 * np.asarray(angle_rad, float)[..., None]
-    return np.concatenate(np.broadcast_arrays(np.cos(half), np.sin(half) * axis[..., :1],
-                                              np.sin(half) * axis[..., 1:2], np.sin(half) * axis[..., 2:]), axis=-1)  # fmt: skip
+    return from_rotation_vector(np.asarray(axis, float) * np.asarray(angle_rad, float)[..., None])
 
 
 def from_euler(order: str, angles_rad: np.ndarray) -> np.ndarray:
-    """Rotations from angles (..., len(order)) about the letters of `order`, each about the axes already turned by those before it.
+    """Rotations from angles (..., len(order)) about the letters of `order`, each about the axes already turned by those
+    before it.
 
     "ZYX" is R_z R_y R_x: the way a BVH file lists its channels. Any number of letters, repeats allowed.
     """
@@ -137,7 +137,8 @@ def between(u: np.ndarray, v: np.ndarray) -> np.ndarray:
 
 
 def heading(q: np.ndarray) -> np.ndarray:
-    """The yaws (...), radians about world Z, of the frames' X axes; of their -Z (Z) axes where X points straight up (down)."""
+    """The yaws (...), radians about world Z, of the frames' X axes; of their -Z (Z) axes where X points straight up
+    (down)."""
     x, z = rotate(q, np.array([1.0, 0.0, 0.0])), rotate(q, np.array([0.0, 0.0, 1.0]))
     upright = np.where(x[..., 2:] > 0.0, -z, z)
     chosen = np.where((x[..., 0] ** 2 + x[..., 1] ** 2 > 1e-4)[..., None], x, upright)
@@ -152,7 +153,8 @@ def about_z(angle_rad: np.ndarray | float) -> np.ndarray:
 
 
 def continuity(q: np.ndarray) -> np.ndarray:
-    """The same rotations along axis 0, each quaternion in the hemisphere of the one before it, so that they may be interpolated."""
+    """The same rotations along axis 0, each quaternion in the hemisphere of the one before it, so that they may be
+    interpolated."""
     q = np.array(q, float)
     if len(q) > 1:
         flips = np.where(np.sum(q[1:] * q[:-1], axis=-1) < 0.0, -1.0, 1.0)
