@@ -2,9 +2,6 @@
 
 from __future__ import annotations
 
-import hashlib
-from dataclasses import dataclass
-from functools import cache
 from pathlib import Path
 from typing import NamedTuple
 
@@ -13,7 +10,7 @@ import numpy as np
 from engine.body.anthropometry import make_body, stature_m
 from engine.body.kinematics import joints_of
 from engine.body.skeleton import ANKLES, TOES, Body, Pose
-from engine.clips.acclaim import find_asf, read_acclaim
+from engine.clips.acclaim import read_acclaim
 from engine.clips.axes import find_axes, leg_length
 from engine.clips.bvh import read_bvh
 from engine.clips.clip import Clip, ImportReport
@@ -21,6 +18,7 @@ from engine.clips.contacts import runs
 from engine.clips.feet import level_feet, stand_on
 from engine.clips.floor import Floor, fit_floor, level_from_floor
 from engine.clips.looping import find_loop
+from engine.clips.making import Wanted, content_key, sources_of
 from engine.clips.mapping import Mapped, map_tracks
 from engine.clips.npz import read_npz
 from engine.clips.rest_frames import rest_frames
@@ -28,18 +26,6 @@ from engine.clips.rig import find_rig, restore_dropped_bones
 from engine.clips.tracks import Tracks, rest_positions
 from engine.core.errors import BadInput
 from engine.maths import rotations
-
-FORMATS = (".bvh", ".amc", ".npz")
-
-
-@dataclass(frozen=True)
-class Wanted:
-    """What a caller may ask of an import besides the file."""
-
-    sex: str = "male"
-    body_mass_kg: float | None = None
-    first_frame: int = 0  # of the file
-    last_frame: int | None = None
 
 
 def import_clip(
@@ -59,48 +45,12 @@ def import_clip(
     return build_clip(read_tracks(path), path, wanted, name or path.stem, content_key(path, wanted))
 
 
-def sources_of(path: Path) -> list[Path]:
-    """The files that a clip is made of. BadInput if a kind of file is not known or a skeleton is missing."""
-    suffix = path.suffix.lower()
-    if suffix not in FORMATS:
-        raise BadInput("clip-format", f"found a {suffix or 'nameless'} file, expected {', '.join(FORMATS)}", str(path))
-    if not path.is_file():
-        raise BadInput("clip-missing", "found no such file, expected a clip", str(path))
-    return [path, find_asf(path)] if suffix == ".amc" else [path]
-
-
 def read_tracks(path: Path) -> Tracks:
     """What the file says, by its kind."""
     files = sources_of(path)
     if len(files) == 2:
         return read_acclaim(*files)
     return read_bvh(path) if path.suffix.lower() == ".bvh" else read_npz(path)
-
-
-def content_key(path: Path, wanted: Wanted) -> str:
-    """A name for what an import will give: it changes with any byte of the files, of the wishes, or of the code that
-    imports."""
-    digest = hashlib.sha256(f"{importer_version()} {wanted}".encode())
-    for file in sources_of(path):
-        try:
-            digest.update(hashlib.sha256(file.read_bytes()).digest())
-        except OSError as trouble:
-            raise BadInput(
-                "clip-unreadable", f"found no readable file ({trouble.strerror}), expected a clip", str(file)
-            ) from None
-    return digest.hexdigest()
-
-
-@cache
-def importer_version() -> str:
-    """Of the code that the outcome depends on, so that nothing imported by older code is ever taken from a cache."""
-    here = Path(__file__).parent
-    sources = [
-        *sorted(here.glob("*.py")),
-        *sorted((here.parent / "body").glob("*.py")),
-        here.parent / "maths" / "rotations.py",
-    ]
-    return hashlib.sha256(b"\0".join(source.read_bytes() for source in sources)).hexdigest()[:16]
 
 
 class Standing(NamedTuple):

@@ -1,9 +1,12 @@
-"""The clips that have a name, and how any clip is found: by that name, or as a file."""
+"""The clips that have a name, and how any clip is found: by that name, or as a file.
+
+What compiles kernels is imported where it is used, so that listing the library is instant.
+"""
 
 from __future__ import annotations
 
 import difflib
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 from engine.clips import cache
@@ -11,9 +14,8 @@ from engine.clips.cache import cache_folder as cache_folder
 from engine.clips.clip import Clip
 from engine.clips.fetching import clip_folder
 from engine.clips.fetching import fetch as fetch
-from engine.clips.importing import FORMATS, Wanted, build_clip, content_key, read_tracks
+from engine.clips.making import FORMATS, Wanted, content_key
 from engine.clips.mirror import mirror_clip as mirror_clip
-from engine.clips.synthetic import sway
 from engine.core.errors import BadInput, EnvironmentTrouble
 
 
@@ -68,6 +70,8 @@ def find_clip(
     if named is None:
         return load_clip(_file(str(name_or_path), relative_to), Wanted(sex, body_mass_kg))
     if named.path is None:
+        from engine.clips.synthetic import sway
+
         return sway(sex, body_mass_kg)
     if not named.ready:
         message = f"clip {named.name!r} is not here yet; `brace clips fetch` brings it, `sway` needs no fetching"
@@ -80,10 +84,12 @@ def load_clip(path: Path, wanted: Wanted, name: str | None = None) -> Clip:
     key = content_key(path, wanted)
     name = name or path.stem
     clip = cache.load(key)
-    if clip is None or clip.name != name:
+    if clip is None:
+        from engine.clips.importing import build_clip, read_tracks
+
         clip = build_clip(read_tracks(path), path, wanted, name, key)
         cache.save(clip)
-    return clip
+    return replace(clip, name=name, report=replace(clip.report, name=name))
 
 
 def _file(text: str, relative_to: str | Path | None) -> Path:

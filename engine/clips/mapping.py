@@ -13,11 +13,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from engine.body.anthropometry import BALL_AHEAD, BUILD, TOE_AHEAD, TOE_JOINT_HEIGHT
 from engine.body.skeleton import (
     ANKLES,
     BACK,
-    CLAVICLES,
     ELBOWS,
     HEAD,
     HIPS,
@@ -28,21 +26,18 @@ from engine.body.skeleton import (
     PARENT,
     PELVIS,
     SHOULDERS,
-    TOES,
     WAIST,
     WRISTS,
     Pose,
 )
 from engine.clips.axes import Axes, leg_length
+from engine.clips.rest_pose import DOWN, Source, alignments, extents, offsets, rest_joints, rows_of, unit
 from engine.clips.rig import Rig
 from engine.clips.tracks import Tracks, rest_positions, world_of
 from engine.maths import rotations
 
-DOWN, AHEAD = np.array([0.0, 0.0, -1.0]), np.array([1.0, 0.0, 0.0])
-IDENTITY = np.array([1.0, 0.0, 0.0, 0.0])
 # a limb bent less than this tells nothing about its hinge; one bent more than that tells all
 HINGE_UNSURE_RAD, HINGE_SURE_RAD = np.radians(12.0), np.radians(35.0)
-FOREARM = 0.146  # of stature, where a file has no wrist (Winter, fig. 4.1)
 STATURE_PER_LEG = 1.0 / 0.495  # de Leva 1996, males: thigh and shank are 49.5 % of stature
 
 
@@ -60,30 +55,20 @@ class Mapped:
     position_error_m: float  # how far a joint that both have lies from where the file has it, at most
 
 
-@dataclass(frozen=True)
-class Source:
-    """The file's joints in metres, Z up; the rest pose ahead along X."""
-
-    positions: np.ndarray  # (F, J, 3)
-    orientations: np.ndarray  # (F, J, 4); the rest pose is the identity
-    rest: np.ndarray  # (J, 3)
-    tips: dict[int, np.ndarray]  # joint row -> (3,) end of its bone, from the joint, in the rest pose
-
-
 def map_tracks(tracks: Tracks, rig: Rig, axes: Axes) -> Mapped:
     """The motion on the canonical skeleton. Shapes as in `Mapped`."""
     source = _source(tracks, axes)
     height_m = leg_length(source.rest, rig) * STATURE_PER_LEG
-    rows = _rows(rig, source.rest, height_m)
-    rest = _rest_joints(source, rig, rows, height_m)
-    alignment = _alignments(source, rig, rest)
+    rows = rows_of(rig, source.rest, height_m)
+    rest = rest_joints(source, rig, rows, height_m)
+    alignment = alignments(source, rig, rest)
     turned = _orientations(source, rig, rows, alignment)
     places = {j: source.positions[:, row] for j, row in rows.items()}
-    offset = _offsets(rest, alignment)
+    offset = offsets(rest, alignment)
     hinge_error = _straighten_hinges(turned, places)
     _aim(turned, places, offset)
     pose = Pose(source.positions[:, rig.pelvis].copy(), _locals(turned))
-    head_top, fingertip = _extents(source, rig, alignment, height_m)
+    head_top, fingertip = extents(source, rig, alignment, height_m)
     error = _position_error(turned, offset, places)
     return Mapped(pose, offset, head_top, fingertip, _missing(rows, rig), hinge_error, error)
 
@@ -99,119 +84,9 @@ def _source(tracks: Tracks, axes: Axes) -> Source:
     )
 
 
-def _rows(rig: Rig, rest: np.ndarray, height_m: float) -> dict[int, int]:
-    """Canonical joint -> the source joint at whose place it lies."""
-    rows = {PELVIS: rig.pelvis, BACK: rig.spine[-1]}
-    # a lower back that starts at the root itself would put the waist on the pelvis
-    if len(rig.spine) > 1 and np.linalg.norm(rest[rig.spine[0]] - rest[rig.pelvis]) > 0.01 * height_m:
-        rows[WAIST] = rig.spine[0]
-    if rig.neck:
-        rows[NECK] = rig.neck[0]
-    if len(rig.neck) > 1:
-        rows[HEAD] = rig.neck[-1]
-    limbs = (
-        (CLAVICLES, rig.collar),
-        (SHOULDERS, rig.shoulder),
-        (ELBOWS, rig.elbow),
-        (WRISTS, rig.wrist),
-        (HIPS, rig.hip),
-        (KNEES, rig.knee),
-        (ANKLES, rig.ankle),
-        (TOES, rig.toe),
-    )
-    for joints, found in limbs:
-        for side in (0, 1):
-            if found[side] is not None:
-                rows[joints[side]] = int(found[side])  # type: ignore[arg-type]
-    return rows
-
-
 def _missing(rows: dict[int, int], rig: Rig) -> tuple[str, ...]:
     """The canonical joints that nothing in the file moves."""
     return tuple(name for j, name in enumerate(JOINTS) if j not in rows and not (j == WAIST and len(rig.spine) > 1))
-
-
-def _rest_joints(source: Source, rig: Rig, rows: dict[int, int], height_m: float) -> dict[int, np.ndarray]:
-    """Where every canonical joint lies in the file's rest pose (3,); those that it lacks are filled in from
-    anthropometry."""
-    rest = {j: source.rest[row] for j, row in rows.items()}
-    if WAIST not in rest:
-        # half way along the lowest bone of the spine is where a person bends
-        above = source.rest[rig.spine[1]] if len(rig.spine) > 1 else rest[BACK]
-        rest[WAIST] = 0.5 * (rest[PELVIS] + above)
-    shoulders = 0.5 * (rest[SHOULDERS[0]] + rest[SHOULDERS[1]])
-    if NECK not in rest:
-        rest[NECK] = shoulders
-    if HEAD not in rest:
-        rest[HEAD] = rest[NECK] + np.array([0.01, 0.0, 0.055]) * height_m
-    for side in (0, 1):
-        if CLAVICLES[side] not in rest:
-            outwards = rest[SHOULDERS[side]] - shoulders
-            rest[CLAVICLES[side]] = shoulders + 0.15 * outwards
-        if WRISTS[side] not in rest:
-            rest[WRISTS[side]] = rest[ELBOWS[side]] + source.tips.get(rig.elbow[side], DOWN * FOREARM * height_m)
-        if TOES[side] not in rest and rig.ankle[side] in source.tips:
-            rest[TOES[side]] = rest[ANKLES[side]] + _toe_on_the_way(source.tips[rig.ankle[side]], height_m)
-    return rest
-
-
-def _toe_on_the_way(tip: np.ndarray, height_m: float) -> np.ndarray:
-    """The toe joint of a foot without one: where its bone ends, if that is at the ball; a share of the way, if at the
-    toes' tips."""
-    reach = float(np.hypot(tip[0], tip[1])) / (height_m * BUILD["male"].foot)
-    if reach < BALL_AHEAD + 0.5 * TOE_AHEAD:
-        return tip
-    share = BALL_AHEAD / (BALL_AHEAD + TOE_AHEAD)
-    # the tips of the toes lie on the ground, the joint a little over it
-    return np.array([tip[0] * share, tip[1] * share, tip[2] + TOE_JOINT_HEIGHT * height_m])
-
-
-def _unit(v: np.ndarray) -> np.ndarray:
-    return v / np.maximum(np.linalg.norm(v, axis=-1, keepdims=True), 1e-12)
-
-
-def _alignments(source: Source, rig: Rig, rest: dict[int, np.ndarray]) -> np.ndarray:
-    """(21, 4) what turns a canonical joint's frame into the source's rest pose: bones of limbs along -Z, hinges about
-    Y."""
-    alignment = np.tile(IDENTITY, (JOINT_COUNT, 1))
-    for side in (0, 1):
-        upper, fore = (
-            _unit(rest[b] - rest[a]) for a, b in ((SHOULDERS[side], ELBOWS[side]), (ELBOWS[side], WRISTS[side]))
-        )
-        # from hanging arms to the rest pose's the short way: a T-pose then has its palms down, as it does in every
-        # convention met
-        alignment[SHOULDERS[side]] = rotations.between(DOWN, upper)
-        alignment[ELBOWS[side]] = rotations.multiply(rotations.between(upper, fore), alignment[SHOULDERS[side]])
-        hand = _unit(_hand(source, rig, side, fore))
-        alignment[WRISTS[side]] = rotations.multiply(rotations.between(fore, hand), alignment[ELBOWS[side]])
-        thigh, shin = (_unit(rest[b] - rest[a]) for a, b in ((HIPS[side], KNEES[side]), (KNEES[side], ANKLES[side])))
-        alignment[HIPS[side]] = rotations.between(DOWN, thigh)
-        alignment[KNEES[side]] = rotations.multiply(rotations.between(thigh, shin), alignment[HIPS[side]])
-        alignment[ANKLES[side]] = alignment[TOES[side]] = _foot_alignment(_foot(source, rig, side), shin)
-    return alignment
-
-
-def _hand(source: Source, rig: Rig, side: int, fore: np.ndarray) -> np.ndarray:
-    """The direction of the hand in the rest pose: to its last bone's end, or straight on."""
-    row = rig.wrist[side]
-    tip = source.tips.get(row) if row is not None else None
-    return tip if tip is not None and np.sum(_unit(tip) * fore) > 0.8 else fore
-
-
-def _foot(source: Source, rig: Rig, side: int) -> np.ndarray:
-    """Ankle to toe joint (or to the end of the foot) in the rest pose; straight ahead if the file says nothing."""
-    row = rig.toe[side]
-    if row is not None:
-        return source.rest[row] - source.rest[rig.ankle[side]]
-    return source.tips.get(rig.ankle[side], AHEAD)
-
-
-def _foot_alignment(foot: np.ndarray, shin: np.ndarray) -> np.ndarray:
-    """A foot that is level fore and aft in the rest pose, tilted sideways with a splayed leg, toes where the foot
-    points."""
-    splay = rotations.between(DOWN, _unit(np.array([0.0, shin[1], shin[2]])))
-    flat = rotations.unrotate(splay, foot)
-    return rotations.multiply(splay, rotations.about_z(np.arctan2(flat[1], flat[0])))
 
 
 def _orientations(source: Source, rig: Rig, rows: dict[int, int], alignment: np.ndarray) -> np.ndarray:
@@ -234,19 +109,6 @@ def _orientations(source: Source, rig: Rig, rows: dict[int, int], alignment: np.
     return turned
 
 
-def _offsets(rest: dict[int, np.ndarray], alignment: np.ndarray) -> np.ndarray:
-    """(21, 3) every joint in its parent's frame: what the rest pose says, seen from the aligned parent."""
-    offset = np.full((JOINT_COUNT, 3), np.nan)
-    offset[PELVIS] = 0.0
-    for j in range(1, JOINT_COUNT):
-        if j in rest:
-            offset[j] = rotations.unrotate(alignment[PARENT[j]], rest[j] - rest[PARENT[j]])
-    for joints in (ELBOWS, WRISTS, KNEES, ANKLES):
-        for j in joints:
-            offset[j] = DOWN * np.linalg.norm(offset[j])
-    return offset
-
-
 def _straighten_hinges(turned: np.ndarray, places: dict[int, np.ndarray]) -> float:
     """Turns upper arms and thighs about themselves so that elbows and knees bend about Y. Returns the residual,
     degrees.
@@ -259,7 +121,7 @@ def _straighten_hinges(turned: np.ndarray, places: dict[int, np.ndarray]) -> flo
         *((HIPS[s], KNEES[s], ANKLES[s], -1.0) for s in (0, 1)),
     ]:
         if end in places:
-            bone = _unit(places[end] - places[middle])
+            bone = unit(places[end] - places[middle])
         else:
             bone = rotations.rotate(turned[:, middle], DOWN)
         astray, bend = _hinge_error(turned[:, upper], bone, ahead)
@@ -299,8 +161,8 @@ def _aim(turned: np.ndarray, places: dict[int, np.ndarray], offset: np.ndarray) 
         # a joint whose place is no joint of the file's (half way along the lower back) is aimed from where it is
         if child in places:
             start = places[j] if j in places else at[j]
-            points = rotations.rotate(turned[:, j], _unit(offset[child]))
-            turned[:, j] = rotations.multiply(rotations.between(points, _unit(places[child] - start)), turned[:, j])
+            points = rotations.rotate(turned[:, j], unit(offset[child]))
+            turned[:, j] = rotations.multiply(rotations.between(points, unit(places[child] - start)), turned[:, j])
 
 
 def _locals(turned: np.ndarray) -> np.ndarray:
@@ -308,23 +170,6 @@ def _locals(turned: np.ndarray) -> np.ndarray:
     local = turned.copy()
     local[:, 1:] = rotations.multiply(rotations.conjugate(turned[:, PARENT[1:]]), turned[:, 1:])
     return rotations.continuity(rotations.normalise(local))
-
-
-def _extents(
-    source: Source, rig: Rig, alignment: np.ndarray, height_m: float
-) -> tuple[np.ndarray | None, np.ndarray | None]:
-    """Crown (3,) and fingertips (2, 3) where the file ends its head and hands at a human distance; else None for
-    anthropometry."""
-    top = source.tips.get(rig.neck[-1]) if len(rig.neck) > 1 else None
-    if top is not None and not (0.07 < top[2] / height_m < 0.12 and abs(top[0]) < 0.5 * top[2]):
-        top = None
-    tips = []
-    for side in (0, 1):
-        row = rig.wrist[side]
-        tip = source.tips.get(row) if row is not None else None
-        if tip is not None and 0.08 < np.linalg.norm(tip) / height_m < 0.125:
-            tips.append(rotations.unrotate(alignment[WRISTS[side]], tip))
-    return top, np.array(tips) if len(tips) == 2 else None
 
 
 def _position_error(turned: np.ndarray, offset: np.ndarray, places: dict[int, np.ndarray]) -> float:

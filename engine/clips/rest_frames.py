@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from engine.body.skeleton import ELBOWS, KNEES, SHOULDERS
-from engine.clips.mapping import DOWN
+from engine.clips.rest_pose import DOWN
 from engine.maths import rotations
 
 # no joint of a person turns so fast out of standing still with the arms held out
