@@ -1,9 +1,9 @@
 """A subject's masses, extents and limits from bone lengths, sex and body mass.
 
-Source of masses, centres of mass and radii of gyration: de Leva 1996, Adjustments to Zatsiorsky-Seluyanov's segment inertia
-parameters, J. Biomechanics 29(9), Table 4, scaled to the subject's own segments. His segments are cut a little further, so that
-each of the 21 joints carries a part: clavicles out of the upper trunk, neck out of the head, toes out of the foot. A cut leaves
-mass, centre and inertia of the whole segment what de Leva measured.
+Source of masses, centres of mass and radii of gyration: de Leva 1996, Adjustments to Zatsiorsky-Seluyanov's segment
+inertia parameters, J. Biomechanics 29(9), Table 4, scaled to the subject's own segments. His segments are cut a little
+further, so that each of the 21 joints carries a part: clavicles out of the upper trunk, neck out of the head, toes out
+of the foot. A cut leaves mass, centre and inertia of the whole segment what de Leva measured.
 """
 
 from __future__ import annotations
@@ -39,10 +39,11 @@ class Segment(NamedTuple):
 
     mass: float
     com: float  # from the segment's upper (proximal, cranial, heel) end
-    gyration: tuple[float, float, float]  # about the segment's sagittal (front-back), transverse (left-right), long axis
+    gyration: tuple[float, float, float]  # about the sagittal (front-back), transverse (left-right) and long axis
 
 
-# head VERT-CERV; trunk SUPR-XYPH, XYPH-OMPH, OMPH-MIDH; hand WJC-DAC3; foot HEEL-TTIP; else joint centre to joint centre
+# head VERT-CERV; trunk SUPR-XYPH, XYPH-OMPH, OMPH-MIDH; hand WJC-DAC3; foot HEEL-TTIP; else joint centre to joint
+# centre
 DE_LEVA = {
     "male": {
         "head": Segment(0.0694, 0.5002, (0.303, 0.315, 0.261)),
@@ -108,12 +109,13 @@ TOE_JOINT_HEIGHT = 0.012
 HEEL_BEHIND, BALL_AHEAD, TOE_AHEAD = 0.20, 0.47, 0.22
 HALF_WIDTHS = (0.12, 0.18, 0.14)
 
-# Of the parts cut off: the head without neck weighs 4.2 kg of a man's 5.07 kg (Yoganandan et al. 2009); the others by volume
+# Of the parts cut off: the head without neck weighs 4.2 kg of a man's 5.07 kg (Yoganandan et al. 2009); the others by
+# volume
 NECK_OF_HEAD, CLAVICLE_OF_UPPER_TRUNK, TOES_OF_FOOT = 0.17, 0.08, 0.15
 
 
 class Part(NamedTuple):
-    """A body part while it is being worked out: its carrying joint, and all else in the identity pose seen from the pelvis."""
+    """A body part while it is worked out: its joint, and the rest in the identity pose, seen from the pelvis."""
 
     joint: int
     mass_kg: float
@@ -131,9 +133,10 @@ def make_body(
 ) -> Body:
     """The body of a subject with these bones.
 
-    offset_m: (21, 3) each joint in its parent's frame, identity pose, metres; the toes' rows may be nan (a clip without them).
-    mass_kg: nan or absent means de Leva's mean body-mass index at the subject's height. head_top_m (3,) and fingertip_m
-    (2, 3): where a clip knows its crown and fingertips, in the head's and the wrists' frames. ValueError names what is wrong.
+    offset_m: (21, 3) each joint in its parent's frame, identity pose, metres; the toes' rows may be nan (a clip without
+    them). mass_kg: nan or absent means de Leva's mean body-mass index at the subject's height. head_top_m (3,) and
+    fingertip_m (2, 3): where a clip knows its crown and fingertips, in the head's and the wrists' frames. ValueError
+    names what is wrong.
     """
     if sex not in DE_LEVA:
         raise ValueError(f"unknown sex {sex!r}; the tables are {', '.join(DE_LEVA)}")
@@ -201,7 +204,7 @@ def joints_at_identity(offset_m: np.ndarray) -> np.ndarray:
 
 
 def stature_m(offset_m: np.ndarray) -> float:
-    """Standing height, from the height of the head's joint over the ankles and the shares of what is above and below."""
+    """Standing height, from the height of the head's joint over the ankles and the shares above and below."""
     joints = joints_at_identity(offset_m)
     return float((joints[HEAD, 2] - joints[list(ANKLES), 2].mean()) / (1.0 - ANKLE_HEIGHT - CROWN_OVER_HEAD_JOINT))
 
@@ -225,7 +228,8 @@ def _soles(offset_m, foot_m):
     soles = np.empty((2, 6, 3))
     for side, inwards in enumerate((-1.0, 1.0)):
         toe = offset_m[TOES[side]]
-        # clips place the toe joint anywhere between the sole and the ankle; a sole cannot be higher or lower than anatomy has it
+        # clips place the toe joint anywhere between the sole and the ankle; a sole cannot be higher or lower than
+        # anatomy has it
         ground = -np.clip(-toe[2] + TOE_JOINT_HEIGHT * height_m, 0.035 * height_m, 0.06 * height_m)
         heel, ball, tip = (np.array([s * inwards * foot_m for s in (w, -w)]) for w in HALF_WIDTHS)
         for k in range(2):
@@ -252,7 +256,7 @@ def _cylindrical(joint, row, body_mass_kg, start, end):
 
 
 def _foot(joint, row, body_mass_kg, heel, tip):
-    """De Leva's long axis of the foot runs forwards, his sagittal one upwards (from the sole), so X and Z change places."""
+    """De Leva's long axis of the foot runs forwards, his sagittal one upwards, so X and Z change places."""
     axis = tip - heel
     length = float(np.sqrt((axis * axis).sum()))
     mass = row.mass * body_mass_kg
@@ -266,7 +270,7 @@ def point_inertia(mass_kg, arm_m):
 
 
 def _cut(whole, *pieces):
-    """What is left of a part when pieces are taken out of it: mass, centre and inertia of the sum stay those of the whole."""
+    """What is left of a part without some pieces: mass, centre and inertia of the sum stay those of the whole."""
     mass = whole.mass_kg - sum(p.mass_kg for p in pieces)
     com = (whole.mass_kg * whole.com_m - sum(p.mass_kg * p.com_m for p in pieces)) / mass
     inertia = whole.inertia_kgm2 - point_inertia(mass, com - whole.com_m)

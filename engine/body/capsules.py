@@ -1,8 +1,8 @@
-"""The body's shape as capsules: what a ball meets, what lies on the floor in the simulation, what a mannequin may be drawn around.
+"""The body's shape as capsules: what a ball meets, what falls on the floor, what a mannequin may be drawn around.
 
-Limbs take their radius from the mass they carry at the density of flesh, so that shape and mass model agree; trunk, head, hands
-and feet, which are no cylinders, take shares of stature from NASA-STD-3000 (chest depth 0.14, hip breadth 0.20, head breadth 0.089,
-hand breadth 0.05, neck breadth 0.066 of it).
+Limbs take their radius from the mass they carry at the density of flesh, so that shape and mass model agree; trunk,
+head, hands and feet, which are no cylinders, take shares of stature from NASA-STD-3000 (chest depth 0.14, hip breadth
+0.20, head breadth 0.089, hand breadth 0.05, neck breadth 0.066 of it).
 """
 
 from __future__ import annotations
@@ -99,10 +99,10 @@ def _side(body, h, side):
     tip = body.sole_m[side, 4:].mean(axis=0)
     ball = tuple(body.offset_m[TOES[side]] * [1, 1, 0] + [0.0, 0.0, ground + foot_radius])
     hand_radius = 0.021 * h
-    fingertip = body.fingertip_m[side]
+    fingertip, shoulder = body.fingertip_m[side], body.offset_m[SHOULDERS[side]]
     reach = float(np.sqrt((fingertip * fingertip).sum()))
     return [
-        (CLAVICLES[side], tuple(0.4 * body.offset_m[SHOULDERS[side]]), tuple(body.offset_m[SHOULDERS[side]]), 0.034 * h),
+        (CLAVICLES[side], tuple(0.4 * shoulder), tuple(shoulder), 0.034 * h),
         _limb(body, SHOULDERS[side], body.offset_m[ELBOWS[side]]),
         _limb(body, ELBOWS[side], body.offset_m[WRISTS[side]]),
         (WRISTS[side], tuple(0.2 * fingertip), tuple(fingertip * (1.0 - hand_radius / reach)), hand_radius),

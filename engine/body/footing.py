@@ -1,4 +1,4 @@
-"""Feet on the ground: where an ankle has to be for the sole to lie flat, how near a foot can be put, and stepping there."""
+"""Feet on the ground: where an ankle has to be for a flat sole, how near a foot can be put, and stepping there."""
 
 from __future__ import annotations
 
@@ -37,10 +37,10 @@ def leg_length_m(body, side):
 
 @njit(cache=True)
 def nearest_footing(body, positions, orientations, side, ground_m, spare_m):
-    """Where to put a foot flat: straight below where it is now, else the nearest ground that the leg reaches from its hip.
+    """Where to put a foot flat: straight below where it is, else the nearest ground that the leg reaches.
 
-    spare_m: how much of the leg's length to leave unused. Returns (ankle target (3,), foot orientation (4,), reachable).
-    Not reachable (the hip is too high): the target is straight below the hip, and is out of reach.
+    spare_m: how much of the leg's length to leave unused. Returns (ankle target (3,), foot orientation (4,),
+    reachable). Not reachable (the hip is too high): the target is straight below the hip, and is out of reach.
     """
     hip, ankle = positions[HIPS[side]], positions[ANKLES[side]]
     height = ground_m + sole_depth_m(body, side)

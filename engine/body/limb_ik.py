@@ -1,13 +1,15 @@
-"""Arms and legs in closed form: a limb is opened or closed, swung onto its target and turned about it, starting from how it is.
+"""Arms and legs in closed form: a limb is opened, swung onto its target and turned about it, starting from how it is.
 
-After Tolani, Goswami and Badler 2000, Real-time inverse kinematics techniques for anthropomorphic limbs (Graphical Models 62), sections 3
-and 4: the elbow's angle by the cosine law, the limb's direction, the swivel angle about the line from root to target. Their
-solution builds a limb anew; this one corrects the limb that is there, so that a target and a swivel that ask for nothing give
-exactly nothing, even where a clip's elbow or knee is no perfect hinge, and a blend begins and ends on the clip's own pose.
+After Tolani, Goswami and Badler 2000, Real-time inverse kinematics techniques for anthropomorphic limbs (Graphical
+Models 62), sections 3 and 4: the elbow's angle by the cosine law, the limb's direction, the swivel angle about the line
+from root to target. Their solution builds a limb anew; this one corrects the limb that is there, so that a target and a
+swivel that ask for nothing give exactly nothing, even where a clip's elbow or knee is no perfect hinge, and a blend
+begins and ends on the clip's own pose.
 
-Words: root, mid, end = shoulder, elbow, wrist or hip, knee, ankle. Hinge = world axis about which positive angles flex the mid joint.
-Swivel = where the mid joint points about the line root to end: 0 along a reference direction, positive away from the body on
-both sides (left towards +Y, right towards -Y for a limb that points forward and a reference that points down).
+Words: root, mid, end = shoulder, elbow, wrist or hip, knee, ankle. Hinge = world axis about which positive angles flex
+the mid joint. Swivel = where the mid joint points about the line root to end: 0 along a reference direction, positive
+away from the body on both sides (left towards +Y, right towards -Y for a limb that points forward and a reference that
+points down).
 """
 
 from __future__ import annotations
@@ -30,8 +32,8 @@ DOWN, CARRIED = 0, 1
 def hinge_of(root, mid, end, joint_axis):
     """The unit axis about which the limb bends now, as flexion is positive; world.
 
-    Bent, it is the normal of the limb's own plane; straight, where there is no such plane (or bent the wrong way), it is the
-    joint's own axis; in between they are blended, over the first 20 degrees of flexion.
+    Bent, it is the normal of the limb's own plane; straight, where there is no such plane (or bent the wrong way), it
+    is the joint's own axis; in between they are blended, over the first 20 degrees of flexion.
     """
     u, v = vector.subtract(mid, root), vector.subtract(end, mid)
     normal = vector.cross(u, v)
@@ -42,21 +44,23 @@ def hinge_of(root, mid, end, joint_axis):
 
 @njit(cache=True)
 def swivel_of(root, mid, end, joint_axis, zero, sign):
-    """The swivel angle, radians in [-pi, pi]: from the reference direction `zero` (any length, projected) to the mid joint.
+    """The swivel angle, radians in [-pi, pi]: from the direction `zero` (any length, projected) to the mid joint.
 
     sign +1 left, -1 right. The mid joint's direction is taken from the hinge, so that a straight limb has one too.
     """
     n = vector.unit(vector.subtract(end, root), vector.subtract(mid, root))
     pointing = vector.cross(n, hinge_of(root, mid, end, joint_axis))
-    return sign * math.atan2(vector.inner(n, vector.cross(zero, pointing)), vector.inner(vector.reject(zero, n), pointing))
+    around, along = vector.cross(zero, pointing), vector.reject(zero, n)
+    return sign * math.atan2(vector.inner(n, around), vector.inner(along, pointing))
 
 
 @njit(cache=True)
 def carried_zero(resting, resting_zero, n):
     """The reference direction for a limb along unit n, carried there from its resting direction by the least rotation.
 
-    A fixed reference (down, forward) turns over wherever the limb passes along it. Carried along, the reference is smooth for
-    every direction but the one opposite to `resting`. Unit vectors; returns a unit vector at right angles to n.
+    A fixed reference (down, forward) turns over wherever the limb passes along it. Carried along, the reference is
+    smooth for every direction but the one opposite to `resting`. Unit vectors; returns a unit vector at right angles to
+    n.
     """
     return quaternion.rotate(quaternion.between(resting, n), resting_zero)
 
@@ -65,9 +69,9 @@ def carried_zero(resting, resting_zero, n):
 def soft_reach(wanted_m, present_m, full_m, soft_m):
     """How far the limb stretches when a distance is wanted: never beyond its full length, and getting there smoothly.
 
-    Up to soft_m short of the full length it is the wanted distance. Then one cubic, from there with slope 1, through the
-    limb's present length (so that an almost straight limb that is asked for nothing stays exactly as it is), up to the full
-    length with slope 0. It overshoots by 0.15 soft_m at most, and only for a limb that is straight already.
+    Up to soft_m short of the full length it is the wanted distance. Then one cubic, from there with slope 1, through
+    the limb's present length (so that an almost straight limb that is asked for nothing stays exactly as it is), up to
+    the full length with slope 0. It overshoots by 0.15 soft_m at most, and only for a limb that is straight already.
     """
     start = full_m - soft_m
     if soft_m <= 0.0 or wanted_m <= start:
@@ -115,7 +119,7 @@ def _bend(u, v, hinge, target_m, greatest_rad, soft_m):
 
 @njit(cache=True)
 def solve_limb(root, mid, end, joint_axis, target, zero, swivel_rad, sign, greatest_rad, soft_m):
-    """Puts the limb's end on a target and its mid joint at a swivel. Points and directions in the world, metres, radians.
+    """Puts the limb's end on a target and its mid joint at a swivel. World, metres, radians.
 
     joint_axis: the mid joint's own unit axis of positive flexion; zero, swivel_rad, sign: see swivel_of (nan leaves the
     swivel alone); greatest_rad: the most that the mid joint flexes (a limb that is bent further already may stay so).
@@ -174,7 +178,7 @@ def _apply(offset_m, rotations, positions, orientations, parent, upper, middle, 
 
 @njit(cache=True)
 def _turn_local(rotations, orientations, parent, joint, world_turn):
-    """local = conj(P) T P * local: a world turn T about the joint, seen from its parent; no turn leaves the local as it is."""
+    """local = conj(P) T P * local: a world turn T about the joint, seen from its parent. No turn, no change."""
     seen = quaternion.multiply(
         quaternion.multiply(quaternion.conjugate(orientations[parent]), world_turn), orientations[parent]
     )
@@ -203,8 +207,8 @@ def arm_zero(orientations, side, reference, n):
     """Where the elbow points at swivel 0 for an arm along unit n; world.
 
     DOWN (spec A3): -Z of the clavicle. Turns over when the arm swings through hanging or straight up: fit for poses.
-    CARRIED: the same in the plane straight ahead (back for a hanging arm, down for one held forward, forward for one held
-    up), carried elsewhere; it turns over only behind and above the shoulder, where no arm goes: fit for blends.
+    CARRIED: the same in the plane straight ahead (back for a hanging arm, down for one held forward, forward for one
+    held up), carried elsewhere; it turns over only behind and above the shoulder, where no arm goes: fit for blends.
     """
     clavicle = orientations[CLAVICLES[side]]
     if reference == DOWN:
@@ -215,11 +219,11 @@ def arm_zero(orientations, side, reference, n):
 
 @njit(cache=True)
 def knee_zero(orientations, n):
-    """Where the knee points at swivel 0 for a leg along unit n: the pelvis's forward axis, carried from the hanging leg; world.
+    """Where the knee points at swivel 0 for a leg along unit n; world: the pelvis's forward axis, carried there.
 
-    A fixed forward axis would turn over in a kick or a high knee, when the thigh comes to lie along it; the foot's own axis does when
-    the heel comes up. Carried from straight down, it is forward for a standing or a spread leg, up for one held forward, down
-    for one held back, and turns over only for a leg straight up.
+    A fixed forward axis would turn over in a kick or a high knee, when the thigh comes to lie along it; the foot's own
+    axis does when the heel comes up. Carried from straight down, it is forward for a standing or a spread leg, up for
+    one held forward, down for one held back, and turns over only for a leg straight up.
     """
     pelvis = orientations[PELVIS]
     return carried_zero(quaternion.rotate(pelvis, (0.0, 0.0, -1.0)), quaternion.rotate(pelvis, (1.0, 0.0, 0.0)), n)
@@ -234,10 +238,11 @@ def side_sign(side):
 @njit(cache=True)
 def arm_swivel(positions, orientations, side, reference=DOWN):
     """The swivel of an arm as it is now, radians, positive away from the body."""
-    root, mid, end = _point(positions, SHOULDERS[side]), _point(positions, ELBOWS[side]), _point(positions, WRISTS[side])
+    root, end = _point(positions, SHOULDERS[side]), _point(positions, WRISTS[side])
     n = vector.unit(vector.subtract(end, root), (0.0, 0.0, -1.0))
     zero = arm_zero(orientations, side, reference, n)
-    return swivel_of(root, mid, end, elbow_axis(orientations, side), zero, side_sign(side))
+    mid, axis = _point(positions, ELBOWS[side]), elbow_axis(orientations, side)
+    return swivel_of(root, mid, end, axis, zero, side_sign(side))
 
 
 @njit(cache=True)
@@ -254,8 +259,9 @@ def apply_arm(
 ):
     """Puts a wrist on a world target with the elbow at a swivel (KEEP: where the least swing leaves it).
 
-    rotations (J, 4), positions (J, 3), orientations (J, 4) of one pose, consistent, are updated in place from the shoulder
-    down; the hand stays as it is on the forearm. Returns how far the wrist misses, metres. soft_m 0: exact up to full length.
+    rotations (J, 4), positions (J, 3), orientations (J, 4) of one pose, consistent, are updated in place from the
+    shoulder down; the hand stays as it is on the forearm. Returns how far the wrist misses, metres. soft_m 0: exact up
+    to full length.
     """
     return arm_onto(
         body.offset_m, -body.limit_low_rad[ELBOWS[side], 1], rotations, positions, orientations, side,
@@ -267,7 +273,7 @@ def apply_arm(
 def arm_onto(
     offset_m, greatest_rad, rotations, positions, orientations, side, target, swivel_rad, reference, soft_m
 ):
-    """apply_arm for hot kernels, which cannot afford to hand a whole body on: greatest_rad is the most the elbow flexes."""
+    """apply_arm for hot kernels that cannot hand a whole body on; greatest_rad is the most the elbow flexes."""
     shoulder, elbow, wrist = SHOULDERS[side], ELBOWS[side], WRISTS[side]
     root = _point(positions, shoulder)
     n = vector.unit(vector.subtract(target, root), (0.0, 0.0, -1.0))

@@ -1,15 +1,17 @@
 """How far a joint goes: published ranges of motion, and rotations held inside them.
 
-A joint's rotation is taken apart as swing * twist, the twist about the bone's axis Z; the swing, a rotation vector without Z part,
-and the twist give three numbers (swing X, swing Y, twist Z) in radians, each with a low and a high limit. Where a clip
-itself goes beyond a limit, its own excess is kept and never added to: `clamp_keeping` and `excess_beyond_rad`.
+A joint's rotation is taken apart as swing * twist, the twist about the bone's axis Z; the swing, a rotation vector
+without Z part, and the twist give three numbers (swing X, swing Y, twist Z) in radians, each with a low and a high
+limit. Where a clip itself goes beyond a limit, its own excess is kept and never added to: `clamp_keeping` and
+`excess_beyond_rad`.
 
-Sources: NASA-STD-3000, Man-Systems Integration Standards, vol. 1, fig. 3.3.2.3.1-1 (95th percentile male: neck, shoulder, elbow, forearm, wrist,
-hip); Magee, Orthopedic Physical Assessment (lumbar and thoracic spine); Neumann, Kinesiology of the Musculoskeletal System
-(sternoclavicular joint); AAOS, Joint Motion (hip rotation and extension, subtalar joint, toes) after Norkin & White, Measurement of
-Joint Motion; Bennell et al. 1998 (dorsiflexion bearing weight). The 95th percentile is taken where it is published:
-a limit is there to forbid the impossible, not the unusual. The stance paper's 48 degrees of freedom are those with a range
-worth the name; the others keep only the play that real joints have (carrying angle of the elbow, varus and valgus of the knee ...).
+Sources: NASA-STD-3000, Man-Systems Integration Standards, vol. 1, fig. 3.3.2.3.1-1 (95th percentile male: neck,
+shoulder, elbow, forearm, wrist, hip); Magee, Orthopedic Physical Assessment (lumbar and thoracic spine); Neumann,
+Kinesiology of the Musculoskeletal System (sternoclavicular joint); AAOS, Joint Motion (hip rotation and extension,
+subtalar joint, toes) after Norkin & White, Measurement of Joint Motion; Bennell et al. 1998 (dorsiflexion bearing
+weight). The 95th percentile is taken where it is published: a limit is there to forbid the impossible, not the unusual.
+The stance paper's 48 degrees of freedom are those with a range worth the name; the others keep only the play that real
+joints have (carrying angle of the elbow, varus and valgus of the knee ...).
 """
 
 from __future__ import annotations
@@ -21,12 +23,13 @@ from engine.body.skeleton import JOINT_COUNT, MIRRORED, joint_index
 from engine.maths import quaternion
 
 # joint: ((low, high) of swing X, swing Y, twist Z) in degrees; left side given, the right one is its mirror image.
-# Positive Y bows the trunk, flexes the knee and points the foot; negative Y lifts arm and thigh forward and flexes the elbow.
+# Positive Y bows the trunk, flexes the knee and points the foot; negative Y lifts arm and thigh forward and flexes the
+# elbow.
 _DEGREES = {
     "waist": ((-20, 20), (-35, 60), (-18, 18)),  # lumbar: lateral; extension, flexion; rotation
     "back": ((-40, 40), (-45, 45), (-50, 50)),  # thoracic
-    "neck": ((-50, 50), (-75, 55), (-75, 75)),  # with the head's: NASA's whole cervical spine, about 3 : 1
-    "head": ((-13.5, 13.5), (-28, 16), (-25, 25)),  # upper cervical
+    "neck": ((-50, 50), (-65, 50), (-65, 65)),  # with the head's: NASA's whole cervical spine
+    "head": ((-15, 15), (-38, 25), (-40, 40)),  # upper cervical: the atlas turns 40 to each side
     "left_clavicle": ((-10, 45), (-35, 35), (-30, 30)),  # depression, elevation; axial; protraction, retraction
     "left_shoulder": ((-64, 180), (-180, 83), (-127, 127)),  # adducted across the chest to abducted; flexed to extended
     "left_elbow": ((-15, 15), (-159, 0), (-126, 126)),  # carrying angle; flexion, none backwards; forearm
@@ -72,8 +75,8 @@ def from_components(swing_x_rad, swing_y_rad, twist_rad):
 def clamp_rotation(low, high, q):
     """The rotation with every component inside its limits (3,), (3,); exactly q where it already is.
 
-    Continuous wherever its components are: everywhere but half a turn of swing or of twist away from the identity, where no
-    limit is the nearer one (a circle cannot be drawn back onto an arc of it without a tear).
+    Continuous wherever its components are: everywhere but half a turn of swing or of twist away from the identity,
+    where no limit is the nearer one (a circle cannot be drawn back onto an arc of it without a tear).
     """
     x, y, z = components(q)
     cx, cy, cz = min(max(x, low[0]), high[0]), min(max(y, low[1]), high[1]), min(max(z, low[2]), high[2])
@@ -88,7 +91,7 @@ def clamp_rotation(low, high, q):
 
 @njit(cache=True)
 def clamp_keeping(low, high, reference, q):
-    """Like clamp_rotation, but each limit that the reference rotation itself oversteps is moved out to where it stands."""
+    """Like clamp_rotation, but a limit that the reference rotation oversteps is moved out to where that is."""
     x, y, z = components(reference)
     return clamp_rotation(
         (min(low[0], x), min(low[1], y), min(low[2], z)), (max(high[0], x), max(high[1], y), max(high[2], z)), q
@@ -136,7 +139,7 @@ def excess_rad(body, rotations: np.ndarray) -> np.ndarray:
 
 
 def excess_beyond_rad(body, rotations: np.ndarray, reference: np.ndarray) -> np.ndarray:
-    """How far each joint lies beyond its limits and beyond what the reference pose (J, 4) or poses (..., J, 4) do themselves."""
+    """The same, without what the reference pose (J, 4), or each of as many poses (..., J, 4), oversteps itself."""
     flat = np.ascontiguousarray(rotations, float).reshape(-1, JOINT_COUNT, 4)
     kept = np.ascontiguousarray(reference, float).reshape(-1, JOINT_COUNT, 4)
     if len(kept) not in (1, len(flat)):

@@ -1,7 +1,7 @@
 """The support polygon: the convex hull of the ground contacts of the planted feet, and how far inside it a point lies.
 
-Plan view: polygons are (m, 2) world X, Y in metres, counter-clockwise, m = 0 (nothing planted) to 12; one foot on its tiptoes may
-leave a line (m = 2) or a point (m = 1).
+Plan view: polygons are (m, 2) world X, Y in metres, counter-clockwise, m = 0 (nothing planted) to 12; one foot on its
+tiptoes may leave a line (m = 2) or a point (m = 1).
 """
 
 from __future__ import annotations
@@ -14,7 +14,7 @@ from numba import njit
 from engine.body.skeleton import ANKLES, SOLE_POINTS, TOES
 from engine.maths import quaternion, vector
 
-CONTACT_M = 0.03  # a sole point this much above its foot's lowest one still bears: flesh and shoe give way, and clips are noisy
+CONTACT_M = 0.03  # a sole point this much above its foot's lowest one still bears: flesh gives way, and clips are noisy
 _FIRST_TOE_POINT = SOLE_POINTS.index("toe_inner")
 _POINTS = len(SOLE_POINTS)
 

@@ -44,10 +44,10 @@ def outwards(start, end, point):
 def swept_sphere_capsule(centre0, centre1, start0, end0, start1, end1, radius_sum):
     """When, as a share of the tick, a sphere first meets a capsule; NO_HIT (-1) if it does not. All move evenly.
 
-    centre0 -> centre1: the sphere's centre; start0, end0 -> start1, end1: the capsule's segment; radius_sum: both radii.
-    A pair that overlaps at the beginning meets at 0 if it is approaching, and not at all if it is parting.
-    Conservative advancement (Mirtich 1996, section 2.3): over a share s the distance cannot shrink by more than s times the
-    greatest relative travel of any point of the segment, so steps of gap / travel never pass the first contact.
+    centre0 -> centre1: the sphere's centre; start0, end0 -> start1, end1: the capsule's segment; radius_sum: both
+    radii. A pair that overlaps at the beginning meets at 0 if it is approaching, and not at all if it is parting.
+    Conservative advancement (Mirtich 1996, section 2.3): over a share s the distance cannot shrink by more than s times
+    the greatest relative travel of any point of the segment, so steps of gap / travel never pass the first contact.
     """
     a, b = vector.subtract(centre0, start0), vector.subtract(centre1, start1)
     c, d = vector.subtract(centre0, end0), vector.subtract(centre1, end1)

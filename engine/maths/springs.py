@@ -1,7 +1,7 @@
-"""Springs as animators use them: set by how long they take, exact for any time step, so that a result does not depend on the tick.
+"""Springs as animators use them: set by how long they take, and exact, so that no result depends on the time step.
 
-After Holden 2021, Spring-It-On (theorangeduck.com/page/spring-roll-call), and, for inertialisation, Bollo 2018 (GDC, Gears of War):
-at a switch only the offset to the new motion is kept, with its velocity, and left to die away.
+After Holden 2021, Spring-It-On (theorangeduck.com/page/spring-roll-call), and, for inertialisation, Bollo 2018 (GDC,
+Gears of War): at a switch only the offset to the new motion is kept, with its velocity, and left to die away.
 """
 
 from __future__ import annotations
@@ -68,7 +68,7 @@ def decaying_rotation(offset, angular_velocity, half_life_s, dt_s):
 
 @njit(cache=True)
 def half_sine(t_s, duration_s):
-    """The share of an impulse that a half-sine force has delivered by t_s: 0 before, 1 after; its integral, (1 - cos) / 2.
+    """The share of an impulse that a half-sine force has delivered by t_s: 0 before, (1 - cos) / 2, 1 after.
 
     The shape of a ball's force while it is flattened and springs back (spec A8).
     """

@@ -1,8 +1,9 @@
 """A ball and a body meet: where and when exactly, what impulse passes between them, and how it reaches both.
 
-The impulse is Newton's and Coulomb's, computed once from the body as it is jointed: J_mujoco M^-1 J_mujoco^T is how a place on the body
-gives way to a push, all joints transmitting. Servos, gravity and floor have no part in it. It may then be delivered at once, or
-as a half-sine force over the contact time (spec A8): the same shares go to both sides, so what one gains the other loses.
+The impulse is Newton's and Coulomb's, computed once from the body as it is jointed: J_mujoco M^-1 J_mujoco^T is how a
+place on the body gives way to a push, all joints transmitting. Servos, gravity and floor have no part in it. It may
+then be delivered at once, or as a half-sine force over the contact time (spec A8): the same shares go to both sides, so
+what one gains the other loses.
 """
 
 from __future__ import annotations
@@ -41,9 +42,9 @@ class Material(NamedTuple):
     friction: float  # Coulomb
 
 
-# Inflated balls dropped on a hard floor return with 0.75 - 0.8 of their speed (Haron and Ismail 2012, Coefficient of restitution of sports
-# balls: a normal drop test) and lose more the faster they come, a soccer ball at 25 m/s about 0.1 (Price, Jones and Harland 2006);
-# flesh takes its part. Hollow balls grip at almost every angle: friction 0.5 and up (Cross 2014, Oblique bounce of a rubber ball).
+# Inflated balls dropped on a hard floor return with 0.75 - 0.8 of their speed (normal drop tests as of Haron and Ismail
+# 2012) and lose more the faster they come, a soccer ball at 25 m/s another 0.1 (Price, Jones and Harland 2006); flesh
+# takes its part. Hollow balls grip at almost every angle: friction 0.5 and up (Cross 2014, Oblique bounce of a ball).
 VOLLEYBALL_ON_SKIN = Material(0.65, 0.6)
 VOLLEYBALL_ON_FLOOR = Material(0.75, 0.6)
 VOLLEYBALL_CONTACT_S = 0.010  # spec A8
@@ -188,19 +189,19 @@ def _mobility(model, place, joint):
 
 
 def ball_mobility(mass_kg: float, radius_m: float, hollow: float, normal: np.ndarray) -> np.ndarray:
-    """(3, 3) the same for the ball's surface at the contact: it gives by moving, and, across the normal, by spinning."""
+    """(3, 3) the same for the ball's surface at the contact: it gives by moving and, across the normal, by spinning."""
     across = np.eye(3) - np.multiply.outer(normal, normal)
     return np.eye(3) / mass_kg + across / (hollow * mass_kg)
 
 
 @njit(cache=True)
 def contact_impulse(gives, gap_velocity, normal, restitution, friction):
-    """The impulse on the ball that takes the approach u_n to -e u_n exactly, within Coulomb's cone, and makes no energy.
+    """The impulse on the ball that takes the approach u_n to -e u_n exactly, in Coulomb's cone, and makes no energy.
 
-    gives (3, 3): mobility of both sides together; u' = u + gives j. If the surfaces can hold each other (|j_t| <= mu j_n), the
-    slip ends, else they slide along the way that holding would have pushed, with j_t = mu j_n; j_n from the normal's equation.
-    Newton's restitution can make energy where joints couple normal and tangent (Kane and Levinson 1985, Dynamics, section 5.9):
-    then there is just so much less friction that it does not.
+    gives (3, 3): mobility of both sides together; u' = u + gives j. If the surfaces can hold each other (|j_t| <= mu
+    j_n), the slip ends, else they slide along the way that holding would have pushed, with j_t = mu j_n; j_n from the
+    normal's equation. Newton's restitution can make energy where joints couple normal and tangent (Kane and Levinson
+    1985, Dynamics, section 5.9): then there is just so much less friction that it does not.
     """
     n = (normal[0], normal[1], normal[2])
     u = (gap_velocity[0], gap_velocity[1], gap_velocity[2])

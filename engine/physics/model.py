@@ -1,9 +1,10 @@
-"""The MuJoCo model of one body: our bones, masses and inertias, capsules and soles over a floor, ball joints everywhere.
+"""The MuJoCo model of one body: our bones, masses and inertias, capsules and soles over a floor, ball joints
+everywhere.
 
-All joints are ball joints, so that any pose of any clip is a state, and MuJoCo's kinematics are ours. What a joint cannot do (an
-elbow sideways) is left to the ligaments of `engine.physics.tracking`, which know how far a clip itself oversteps. Body parts collide with the
-floor only: a pose may cross its own arms, and the ball is met by our own impulse law (engine.physics.impact), because MuJoCo's soft
-contacts bounce wrongly at spike speed.
+All joints are ball joints, so that any pose of any clip is a state, and MuJoCo's kinematics are ours. What a joint
+cannot do (an elbow sideways) is left to the ligaments of `engine.physics.tracking`, which know how far a clip itself
+oversteps. Body parts collide with the floor only: a pose may cross its own arms, and the ball is met by our own impulse
+law (engine.physics.impact), because MuJoCo's soft contacts bounce wrongly at spike speed.
 """
 
 from __future__ import annotations
@@ -17,15 +18,18 @@ import numpy as np
 from engine.body.anthropometry import joints_at_identity, point_inertia
 from engine.body.capsules import CAPSULES, body_capsules
 from engine.body.skeleton import JOINT_COUNT, JOINTS, PARENT, SOLE_POINTS, Body
+from engine.core.errors import EnvironmentTrouble
 from engine.maths.ballistics import GRAVITY_MPS2
+from engine.physics.layout import STATE_SIZE
 
 SUB_STEPS_HZ = 480
 SOLE_BEAD_M = 0.012  # the sole's contact points are small beads that touch the sole's plane from inside
 FOOT_LIFT_M = 0.004
 FLOOR_FRICTION = 0.8  # a shoe on a sports floor: 0.7 to 1.1 (EN 14904 asks for 80 - 110 on its pendulum scale)
 
-# Greatest joint torques, N m for a man of 73 kg: isometric maxima of young men (Anderson, Madigan and Nussbaum 2007, J. Biomech. 40,
-# hip, knee, ankle; Kumar 1996, trunk; Garner and Pandy 2001, shoulder, elbow, wrist; Vasavada et al. 2001, neck), the stronger direction
+# Greatest joint torques, N m for a man of 73 kg, rounded: isometric maxima of young men in the stronger direction (hip,
+# knee, ankle after Anderson, Madigan and Nussbaum 2007; trunk after Kumar, Dufresne and Van Schoor 1995;
+# shoulder, elbow, wrist after Garner and Pandy 2001; neck after Vasavada, Li and Delp 2001)
 STRENGTH_NM = {
     "waist": 280, "back": 250, "neck": 60, "head": 40, "clavicle": 120, "shoulder": 110, "elbow": 75, "wrist": 18,
     "hip": 260, "knee": 240, "ankle": 160, "toe": 20,
@@ -35,7 +39,7 @@ STRENGTH_BODY_KG = 73.0
 
 @dataclass(frozen=True, eq=False)
 class RagdollModel:
-    """One body ready to be simulated. Immutable but for `data`, MuJoCo's scratch, which every call fills anew from a state."""
+    """One body ready to be simulated. Never changes, but for MuJoCo's scratch, which every call fills from a state."""
 
     body: Body
     key: str  # content of the body, for caches and world.assets
@@ -71,13 +75,16 @@ def body_key(body: Body) -> str:
 def _make(body, key):
     m = mujoco.MjModel.from_xml_string(xml_of(body))
     kinds = mujoco.mjtState
-    before = mujoco.mj_stateSize(m, kinds.mjSTATE_TIME)
+    before, size = (mujoco.mj_stateSize(m, kind) for kind in (kinds.mjSTATE_TIME, kinds.mjSTATE_INTEGRATION))
+    if size != STATE_SIZE:
+        found = f"MuJoCo {mujoco.__version__} keeps a state of {size} numbers"
+        raise EnvironmentTrouble("mujoco", f"{found}, expected {STATE_SIZE}: install the version in requirements.lock")
     return RagdollModel(
         body=body,
         key=key,
         mujoco_model=m,
         data=mujoco.MjData(m),
-        state_size=mujoco.mj_stateSize(m, kinds.mjSTATE_INTEGRATION),
+        state_size=size,
         positions=slice(before, before + m.nq),
         velocities=slice(before + m.nq, before + m.nq + m.nv),
         mass_kg=float(body.part_mass_kg.sum()),
@@ -93,8 +100,9 @@ def _strength_nm(body):
 
 
 def servo_inertia_kgm2(body: Body) -> np.ndarray:
-    """(J,) the inertia that each joint has to move, identity pose: the mean moment about the joint, across the bone, of what
-    hangs on it; for hip, knee, ankle and toe, of half of what stands on it, as a leg carries rather than swings.
+    """(J,) the inertia that each joint has to move: what hangs on it; for a leg's, half of what stands on it.
+
+    The mean moment about the joint, across the bone, identity pose. A leg carries more often than it swings.
     """
     joints = joints_at_identity(body.offset_m)
     total = np.empty(JOINT_COUNT)
@@ -142,8 +150,9 @@ def xml_of(body: Body) -> str:
     return "\n".join(
         [
             '<mujoco model="brace">',
-            '  <compiler angle="radian" inertiafromgeom="false" boundmass="0" boundinertia="0" balanceinertia="false"/>',
-            f'  <option timestep="{1.0 / SUB_STEPS_HZ!r}" gravity="{_text(GRAVITY_MPS2)}" cone="elliptic" iterations="60" tolerance="1e-10">',
+            '  <compiler angle="radian" inertiafromgeom="false" boundmass="0" boundinertia="0"/>',
+            f'  <option timestep="{1.0 / SUB_STEPS_HZ!r}" gravity="{_text(GRAVITY_MPS2)}" cone="elliptic"'
+            ' iterations="60" tolerance="1e-10">',
             '    <flag autoreset="disable" eulerdamp="disable"/>',
             "  </option>",
             "  <default>",
@@ -175,7 +184,7 @@ def _inertial(body, j):
 def _geoms(body):
     """Per joint, the shapes that may touch the floor: all capsules, and the soles' points that the feet stand on."""
     capsules = body_capsules(body)
-    out = [[] for _ in range(JOINT_COUNT)]
+    out: list[list[str]] = [[] for _ in range(JOINT_COUNT)]
     for name, j, a, b, r in zip(CAPSULES, *capsules, strict=True):
         if name.endswith(("_foot", "_toes")):
             # only for lying on their sides: standing is the sole points' business

@@ -1,7 +1,7 @@
 """A body that is simulated: start it from a moving pose, step it while it is pulled towards a pose, read where it is.
 
-All functions are pure: a state is one flat float vector (MuJoCo's integration state, restored bit for bit) that can live in a
-column of the world, be snapshot, digested and rewound like any other.
+All functions are pure: a state is one flat float vector (MuJoCo's integration state, restored bit for bit) that can
+live in a column of the world, be snapshot, digested and rewound like any other.
 """
 
 from __future__ import annotations
@@ -12,12 +12,13 @@ from typing import NamedTuple
 import mujoco
 import numpy as np
 
-from engine.body.skeleton import JOINT_COUNT, PARENT, Pose
-from engine.maths import rotations
+from engine.body.skeleton import HEAD, JOINT_COUNT, PARENT, Pose
+from engine.maths import quaternion, rotations, vector
 from engine.maths.springs import half_sine
 from engine.physics import tracking
 from engine.physics.model import SUB_STEPS_HZ, RagdollModel
 
+HEAD_CENTRE = 0.5  # of the way from the head's joint to its crown
 _KIND = mujoco.mjtState.mjSTATE_INTEGRATION
 
 
@@ -39,7 +40,7 @@ def start(model: RagdollModel, pose: Pose, pose_before: Pose, dt_s: float) -> np
 
 
 def state_of(model: RagdollModel, pose: Pose, velocities: np.ndarray) -> np.ndarray:
-    """The state (n,) with these generalised velocities (nv,): root linear in the world, spins (J, 3) in each joint's own frame."""
+    """The state (n,) with velocities (nv,): the root's linear in the world, then spins (J, 3) in each joint's frame."""
     d = model.data
     mujoco.mj_resetData(model.mujoco_model, d)
     d.qpos[:3] = pose.root_m
@@ -60,8 +61,9 @@ def step(
 ) -> np.ndarray:
     """The state dt_s later: gravity, floor, servos towards the target's rotations (its root is ignored), and pushes.
 
-    strength 1 is a fit person's, 0 limp; damping 1 is critical. Sub-steps of 1 / 480 s or a little less; trace, if given,
-    (sub_steps_in(dt_s), J, 3), is filled with the velocity of every part's centre of mass after each: a blow is over within a tick.
+    strength 1 is a fit person's, 0 limp; damping 1 is critical. Sub-steps of 1 / 480 s or a little less; trace, if
+    given, (sub_steps_in(dt_s), J, 3), is filled with the velocity of every part's centre of mass after each: a blow is
+    over within a tick.
     """
     m, d = model.mujoco_model, model.data
     _load(model, state)
@@ -101,8 +103,8 @@ def read(model: RagdollModel, state: np.ndarray) -> tuple[Pose, np.ndarray]:
 def pose_of(model: RagdollModel, state: np.ndarray) -> Pose:
     """Where the body is."""
     qpos = state[model.positions]
-    rotations = qpos[3:].reshape(JOINT_COUNT, 4)
-    return Pose(qpos[:3].copy(), rotations / np.sqrt((rotations * rotations).sum(axis=1, keepdims=True)))
+    turned = qpos[3:].reshape(JOINT_COUNT, 4)
+    return Pose(qpos[:3].copy(), turned / np.sqrt((turned * turned).sum(axis=1, keepdims=True)))
 
 
 def carried_on(model: RagdollModel, state: np.ndarray, dt_s: float) -> Pose:
@@ -121,8 +123,23 @@ def motion_of(model: RagdollModel, state: np.ndarray) -> tuple[np.ndarray, np.nd
     return tracking.joint_velocities(PARENT, model.body.offset_m, state[model.positions], state[model.velocities])
 
 
+def head_velocity(model: RagdollModel, state: np.ndarray) -> np.ndarray:
+    """(3,) velocity of the middle of the head, world."""
+    return _velocity_of_place(
+        model, state[model.positions], state[model.velocities], HEAD, HEAD_CENTRE * model.body.head_top_m
+    )
+
+
+def _velocity_of_place(model, qpos, qvel, joint, place_m):
+    """(3,) of a place in a joint's frame, world."""
+    _, orientations = tracking.world_frames(PARENT, model.body.offset_m, qpos)
+    linear, angular = tracking.joint_velocities(PARENT, model.body.offset_m, qpos, qvel)
+    arm = quaternion.rotate(orientations[joint], place_m)
+    return linear[joint] + vector.cross(angular[joint], arm)
+
+
 def share_in(push: Push, from_s: float, to_s: float) -> float:
-    """The share of a push that falls between two times since contact. The same numbers for body and ball, so their sum is nothing."""
+    """The share of a push that falls between two times since contact: the same numbers for body and ball."""
     if push.duration_s <= 0.0:
         return 1.0 if from_s <= 0.0 < to_s else 0.0
     return half_sine(to_s, push.duration_s) - half_sine(from_s, push.duration_s)
@@ -137,7 +154,8 @@ def _apply(model, push, from_s, h):
     mujoco.mj_kinematics(m, d)
     mujoco.mj_comPos(m, d)
     place = place_in_world(model, push.joint, push.place_m)
-    mujoco.mj_applyFT(m, d, np.asarray(push.impulse_Ns) * (share / h), np.zeros(3), place, push.joint + 1, d.qfrc_applied)
+    force = np.asarray(push.impulse_Ns) * (share / h)
+    mujoco.mj_applyFT(m, d, force, np.zeros(3), place, push.joint + 1, d.qfrc_applied)
 
 
 def _momentum(model):
@@ -146,10 +164,11 @@ def _momentum(model):
 
 
 def _balance(model, before, h):
-    """Makes a sub-step's change of momentum that of the forces that acted from outside, to rounding; returns the new momentum.
+    """Makes a sub-step's change of momentum that of the outer forces, to rounding. Returns the new momentum (3,).
 
-    Stepping velocities first and places after them, the turning of the parts leaks momentum at second order in h. All outer
-    forces (floor, pushes, gravity) stand in the root's first three rows; what leaked goes back as a velocity of the whole.
+    Stepping velocities first and places after them, the turning of the parts leaks momentum at second order in h. All
+    outer forces (floor, pushes, gravity) stand in the root's first three rows; what leaked goes back as a velocity of
+    the whole.
     """
     m, d, mass = model.mujoco_model, model.data, model.mass_kg
     wanted = before + h * (d.qfrc_constraint[:3] + d.qfrc_applied[:3] + mass * m.opt.gravity)

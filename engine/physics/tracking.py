@@ -1,13 +1,15 @@
-"""Servos and ligaments: the torques that pull a simulated body towards a pose, strong as a person and stable at any gain.
+"""Servos and ligaments: the torques that pull a simulated body towards a pose, strong as a person and stable at any
+gain.
 
-Stable proportional-derivative control (Tan, Liu and Turk 2011, IEEE CG&A 31), written as one linearly implicit step. With the torque
-k (error - h v+) - d v+ of the *next* velocity, M (v+ - v) / h = k error - D v+, D = d + h k, is the same as
+Stable proportional-derivative control (Tan, Liu and Turk 2011, IEEE CG&A 31), written as one linearly implicit step.
+With the torque k (error - h v+) - d v+ of the *next* velocity, M (v+ - v) / h = k error - D v+, D = d + h k, is the
+same as
 
     (M + h D) (v+ - v) = h (k error - D v)
 
-so h D goes where MuJoCo keeps a joint's armature (it then enters contacts too, and floor and servo agree about what moves), and
-k error - D v is the applied torque. Gains come from the inertia that each joint has to move, so that one frequency suits a wrist
-and a hip: k = I w^2, d = 2 z I w.
+so h D goes where MuJoCo keeps a joint's armature (it then enters contacts too, and floor and servo agree about what
+moves), and k error - D v is the applied torque. Gains come from the inertia that each joint has to move, so that one
+frequency suits a wrist and a hip: k = I w^2, d = 2 z I w.
 """
 
 from __future__ import annotations
@@ -31,8 +33,9 @@ PASSIVE_PER_S = 1.5  # tissue damping that is left without any strength, per uni
 def drive(qpos, qvel, target, low, high, inertia, most_nm, strength, damping, h, torque, armature):
     """Fills in torque (nv,) and armature (nv,) for one sub-step of h seconds; the root's six stay zero.
 
-    target (J, 4): local rotations to pull towards. A limit that the target oversteps is moved out to it: a clip keeps its
-    own excess. strength scales stiffness and greatest torque (0: limp), damping the servo's damping ratio (1: critical).
+    target (J, 4): local rotations to pull towards. A limit that the target oversteps is moved out to it: a clip keeps
+    its own excess. strength scales stiffness and greatest torque (0: limp), damping the servo's damping ratio (1:
+    critical).
     """
     w = 2.0 * math.pi * SERVO_HZ
     for j in range(1, JOINT_COUNT):
@@ -76,7 +79,7 @@ def _servo_gains(q, spin, goal, stiffness, most_nm, damping):
 
 @njit(cache=True)
 def finite_velocities(root_before, root, rotations_before, rotations, dt_s, qvel):
-    """Fills in qvel (nv,): the velocities that lead from one pose to the next in dt_s. Linear in the world, spins in each joint's frame."""
+    """Fills in qvel (nv,), which leads from one pose to the next in dt_s: world linear, spins in each joint's frame."""
     for axis in range(3):
         qvel[axis] = (root[axis] - root_before[axis]) / dt_s
     for j in range(JOINT_COUNT):

@@ -14,7 +14,7 @@ def identity_pose(height_m: float = 1.0) -> Pose:
 
 
 def random_pose(rng: np.random.Generator, spread: float = 0.6) -> Pose:
-    """A bent and twisted pose with elbows and knees that are perfect hinges, forearms twisted; anywhere, facing any way."""
+    """A bent and twisted pose, elbows and knees perfect hinges, forearms twisted; anywhere, facing any way."""
     rotations = np.array([from_components(*(spread * rng.uniform(-1, 1, 3))) for _ in range(JOINT_COUNT)])
     for side in range(2):
         rotations[ELBOWS[side]] = from_components(0.0, -rng.uniform(0.0, 2.4), spread * rng.uniform(-1, 1))

@@ -40,7 +40,8 @@ def solve(rng, side, leg, distance_m, swivel=None, pose=None, soft_m=limb_ik.SOF
         miss = limb_ik.apply_leg(BODY, rotations, positions, orientations, side, target, foot, swivel, soft_m)
     else:
         swivel = limb_ik.KEEP if swivel is None else swivel
-        miss = limb_ik.apply_arm(BODY, rotations, positions, orientations, side, target, swivel, limb_ik.CARRIED, soft_m)
+        pose_arrays = (rotations, positions, orientations)
+        miss = limb_ik.apply_arm(BODY, *pose_arrays, side, target, swivel, limb_ik.CARRIED, soft_m)
     return pose, rotations, positions, orientations, target, miss
 
 
@@ -91,7 +92,8 @@ def test_asking_for_nothing_changes_nothing_even_for_imperfect_hinges(seed, side
     pose = random_pose(rng)
     mid = (KNEES if leg else ELBOWS)[side]
     sign = 1.0 if leg else -1.0
-    pose.rotations[mid] = quaternion.from_rotation_vector((rng.uniform(-0.2, 0.2), sign * flexion, rng.uniform(-0.5, 0.5)))
+    askew, twist = rng.uniform(-0.2, 0.2), rng.uniform(-0.5, 0.5)
+    pose.rotations[mid] = quaternion.from_rotation_vector((askew, sign * flexion, twist))
     rotations, positions, orientations = unpacked(BODY, pose)
     before = [a.copy() for a in (rotations, positions, orientations)]
     end = (ANKLES if leg else WRISTS)[side]
@@ -125,7 +127,7 @@ def test_left_mirrored_is_right(seed, side, leg, share, swivel):
 @settings(max_examples=60, deadline=None)
 @given(st.floats(0.0, 0.02))
 def test_reach_saturates_smoothly_and_keeps_the_present_length(below_m):
-    """Finite differences: one slope left and right of every point; never longer than the limb; the present length fixed."""
+    """By finite differences no kink; never longer than the limb; the present length stays."""
     full, soft = 0.56, 0.01
     present = full - below_m
     wanted = np.linspace(full - 0.03, full + 0.03, 6001)
@@ -208,7 +210,7 @@ def test_positive_swivel_points_away_from_the_body_and_zero_down(side):
 
 
 def test_swivel_references_agree_straight_ahead_and_never_turn_over_in_walking_or_kicking():
-    """Where the fixed reference flips (an arm that swings through hanging), the carried one turns as little as the arm does."""
+    """Where the fixed reference flips (an arm swinging through hanging), the carried one turns as little as the arm."""
     _, _, orientations = unpacked(BODY, random_pose(np.random.default_rng(0)))
     orientations[:] = [1, 0, 0, 0]
     for angle in np.linspace(0.1, 3.0, 30):  # from nearly hanging, forwards, to nearly straight up
@@ -218,7 +220,10 @@ def test_swivel_references_agree_straight_ahead_and_never_turn_over_in_walking_o
         carried = limb_ik.arm_zero(orientations, 0, limb_ik.CARRIED, n)
         np.testing.assert_allclose(down / np.linalg.norm(down), carried, atol=1e-9)
     swing = [(math.sin(a), 0.02, -math.cos(a)) for a in np.linspace(-0.9, 2.5, 400)]
-    for reference in (lambda n: limb_ik.arm_zero(orientations, 0, limb_ik.CARRIED, n), lambda n: limb_ik.knee_zero(orientations, n)):
+    for reference in (
+        lambda n: limb_ik.arm_zero(orientations, 0, limb_ik.CARRIED, n),
+        lambda n: limb_ik.knee_zero(orientations, n),
+    ):
         axes = np.array([reference(np.array(n) / np.linalg.norm(n)) for n in swing])
         assert np.linalg.norm(np.diff(axes, axis=0), axis=1).max() < 0.05
 

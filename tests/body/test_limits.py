@@ -1,4 +1,4 @@
-"""Joint limits: what is taken apart is put together, clamps are the nearest thing inside, a clip's own excess is kept."""
+"""Joint limits: taken apart and put together, clamped without tears, a clip's own excess kept."""
 
 import math
 

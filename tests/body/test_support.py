@@ -38,7 +38,9 @@ def test_hull_drops_points_that_repeat_or_lie_on_an_edge():
     np.testing.assert_array_equal(support.hull(square), [[0, 0], [1, 0], [1, 1], [0, 1]])
 
 
-@pytest.mark.parametrize(("points", "m"), [([], 0), ([[1, 2]], 1), ([[1, 2], [1, 2]], 1), ([[0, 0], [2, 2], [1, 1]], 2)])
+@pytest.mark.parametrize(
+    ("points", "m"), [([], 0), ([[1, 2]], 1), ([[1, 2], [1, 2]], 1), ([[0, 0], [2, 2], [1, 1]], 2)]
+)
 def test_hull_of_a_point_or_a_line(points, m):
     polygon = support.hull(np.array(points, float).reshape(-1, 2))
     assert len(polygon) == m

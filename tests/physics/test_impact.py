@@ -1,4 +1,4 @@
-"""The impulse law: momentum to rounding, restitution exact, friction inside its cone, energy never made, nothing tunnelled."""
+"""The impulse law: momentum to rounding, restitution exact, friction in its cone, no energy made, no tunnelling."""
 
 import itertools
 import math
@@ -98,7 +98,7 @@ def test_mobility_is_that_of_the_dense_matrix():
 
 
 def test_joints_transmit_the_blow():
-    """A loosely jointed body gives way more easily than one rigid piece of its mass, and less easily than the part alone."""
+    """A jointed body gives way more easily than a rigid piece of its mass, and less easily than the part alone."""
     pose = standing()
     state = ragdoll.start(MODEL, pose, pose, TICK_S)
     frames = kinematics.joints_of(BODY, pose)

@@ -1,4 +1,4 @@
-"""The simulated body: stands, tracks without jelly, falls without making energy, lies still, and is the same bits every time."""
+"""The simulated body stands, tracks without jelly, falls without making energy, lies still; the same bits always."""
 
 import math
 
@@ -139,7 +139,7 @@ def test_a_servo_asks_for_no_more_than_a_persons_strength_and_nothing_of_the_roo
 
 
 def test_limp_joints_stop_at_their_limits_and_keep_what_the_target_oversteps():
-    """Dropped on the floor without strength, knees and elbows do not go backwards; an overstretched clip's knee stays so."""
+    """Dropped without strength, knees and elbows do not go backwards; an overstretched clip's knee stays so."""
     pose = standing()
     pose = Pose(pose.root_m + [0, 0, 0.3], pose.rotations)
     before = Pose(pose.root_m - [0.02, 0.0, 0.0], pose.rotations)
