@@ -20,7 +20,8 @@ NEUTRAL_OUT, NEUTRAL_FORWARD, NEUTRAL_ELBOW, NEUTRAL_PALM = (math.radians(a) for
 NEUTRAL_SWIVEL = math.radians(20.0)
 # how far an arm that hangs follows gravity (1) rather than the chest (0)
 HANG = 0.85
-FINEST_SWIVEL_STEPS, SWIVEL_STEP = 12, math.radians(10.0)
+# how the nearest allowed swivel is looked for
+SWIVEL_STEPS, SWIVEL_STEP = 12, math.radians(10.0)
 
 
 @njit(cache=True)
@@ -68,22 +69,30 @@ def reach(body, rotations, positions, orientations, side, target_m, swivel_rad):
 
 @njit(cache=True)
 def reach_within_limits(body, rotations, positions, orientations, side, target_m, swivel_rad):
-    """`reach` at the allowed swivel that is nearest to the wanted one. Returns the miss and the swivel taken.
+    """`reach` at the allowed swivel that is nearest to the wanted one. Returns the miss, the swivel taken, and the strain.
 
-    Where no swivel is allowed, the shoulder is held at its limit and the wrist goes no farther than that.
+    Where no swivel is allowed, the one that strains least is taken, the arm is held at its limits and the wrist goes no farther
+    than that; the strain is what the limits are short of, radians, else 0.
     """
     miss = reach(body, rotations, positions, orientations, side, target_m, swivel_rad)
-    if _excess(body, rotations, side) == 0.0:
-        return miss, swivel_rad
-    for k in range(1, FINEST_SWIVEL_STEPS + 1):
+    least, easiest = strain_rad(body, rotations, side), swivel_rad
+    if least == 0.0:
+        return miss, swivel_rad, 0.0
+    for k in range(1, SWIVEL_STEPS + 1):
         for way in (1.0, -1.0):
             allowed = swivel_rad + way * k * SWIVEL_STEP
-            miss = reach(body, rotations, positions, orientations, side, target_m, allowed)
-            if _excess(body, rotations, side) == 0.0:
-                return _edge_of_allowed(
-                    body, rotations, positions, orientations, side, target_m, allowed - way * SWIVEL_STEP, allowed
+            reach(body, rotations, positions, orientations, side, target_m, allowed)
+            strain = strain_rad(body, rotations, side)
+            if strain == 0.0:
+                forbidden = allowed - way * SWIVEL_STEP
+                miss, allowed = _edge_of_allowed(
+                    body, rotations, positions, orientations, side, target_m, forbidden, allowed
                 )
-    return _hold_at_limits(body, rotations, positions, orientations, side, target_m), swivel_rad
+                return miss, allowed, 0.0
+            if strain < least:
+                least, easiest = strain, allowed
+    reach(body, rotations, positions, orientations, side, target_m, easiest)
+    return _hold_at_limits(body, rotations, positions, orientations, side, target_m), easiest, least
 
 
 @njit(cache=True)
@@ -103,7 +112,7 @@ def _edge_of_allowed(body, rotations, positions, orientations, side, target_m, f
     for _ in range(20):
         middle = 0.5 * (forbidden + allowed)
         reach(body, rotations, positions, orientations, side, target_m, middle)
-        if _excess(body, rotations, side) == 0.0:
+        if strain_rad(body, rotations, side) == 0.0:
             allowed = middle
         else:
             forbidden = middle
@@ -111,7 +120,8 @@ def _edge_of_allowed(body, rotations, positions, orientations, side, target_m, f
 
 
 @njit(cache=True)
-def _excess(body, rotations, side):
+def strain_rad(body, rotations, side):
+    """How far shoulder or elbow is beyond its limits."""
     s, e = SHOULDERS[side], ELBOWS[side]
     shoulder = limits.joint_excess_rad(body.limit_low_rad[s], body.limit_high_rad[s], quaternion.IDENTITY, rotations[s])
     elbow = limits.joint_excess_rad(body.limit_low_rad[e], body.limit_high_rad[e], quaternion.IDENTITY, rotations[e])

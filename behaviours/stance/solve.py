@@ -23,6 +23,7 @@ from engine.maths import quaternion
 NEUTRAL_KNEE_RAD = np.radians(4.0)
 LEGS = (*HIPS, *KNEES, *ANKLES, *TOES)
 ROUNDING_RAD = 1e-9
+MOST_EASINGS = 4
 
 
 class Place(NamedTuple):
@@ -108,7 +109,7 @@ def solve_shape(
     plan = plan_of(body, wanted, feet, reach_m, look_at_m, balance_m)
     wishes = wishes_of(body, wanted, places)
     kept, unknowns, search, figure, outcome, wrists = _solve_within_limits(body, plan, wishes)
-    plan = _eased(body, plan, feet, kept)
+    plan = _eased(body, plan, kept)
     com_m = _com_of(body, figure)
     return StanceResult(
         pose=Pose(figure.root_m, figure.rotations),
@@ -123,8 +124,8 @@ def solve_shape(
         feet=feet,
         com_m=com_m,
         com_wanted_m=plan.balance_m,
-        wrist_error_m=wrists[0],
-        swivel_rad=wrists[1],
+        wrist_error_m=wrists[solver.MISS],
+        swivel_rad=wrists[solver.SWIVEL],
         foot_error_m=np.linalg.norm(figure.positions[list(ANKLES)] - feet.ankle_m, axis=1),
         foot_error_rad=_foot_turns(figure, feet),
         gaze_error_rad=_gaze_error(body, plan, figure),
@@ -198,7 +199,7 @@ def wishes_of(body: Body, wanted: Shape, places: tuple[Place, ...] = ()) -> solv
 
 def reach_penalty(arm_m: float) -> np.ndarray:
     """The penalty on the distance from shoulder to target: none from a well bent to an almost straight arm, steep beyond."""
-    return penalty.row(0.75 * arm_m, Side(0.25 * arm_m, 0.0, 0.75 * arm_m, 1.0), Side(0.21 * arm_m, 0.0, 0.6 * arm_m, 1.0))
+    return penalty.row(0.75 * arm_m, Side(0.25 * arm_m, 0.0, 0.75 * arm_m, 1.0), Side(0.1 * arm_m, 0.0, 0.25 * arm_m, 1.0))
 
 
 def unknowns_of(wanted: Shape) -> np.ndarray:
@@ -212,36 +213,43 @@ def _solve_within_limits(body, plan, wishes):
 
     Returns (share kept, unknowns, balance search, figure, outcome, (wrist errors, swivels)).
     """
-    kept = 1.0
-    solved = _solve(body, plan, wishes)
-    if _leg_excess_rad(body, solved[2]) > ROUNDING_RAD:
-        feet = Footprints(plan.lower.ankle_m, plan.lower.foot_turned, plan.lower.toe_rad)
-        kept, refused = 0.0, 1.0
-        for _ in range(8):
-            middle = 0.5 * (kept + refused)
-            attempt = _solve(body, _eased(body, plan, feet, middle), wishes)
-            if _leg_excess_rad(body, attempt[2]) > ROUNDING_RAD:
-                refused = middle
-            else:
-                kept, solved = middle, attempt
-        if kept == 0.0:
-            solved = _solve(body, _eased(body, plan, feet, 0.0), wishes)
+    kept, solved = 1.0, _solve(body, plan, wishes)
+    for _ in range(MOST_EASINGS):
+        if _leg_excess_rad(body, solved[2]) <= ROUNDING_RAD:
+            break
+        kept = _share_allowed(body, plan, solved[0], kept)
+        solved = _solve(body, _eased(body, plan, kept), wishes)
     return kept, *solved
+
+
+def _share_allowed(body, plan, unknowns, refused):
+    """The largest share of the lower body's wishes, below the one refused, that the legs' limits allow with this torso."""
+    allowed, figure = 0.0, new_figure()
+    for _ in range(10):
+        middle = 0.5 * (allowed + refused)
+        eased = _eased(body, plan, middle)
+        balance.find_balance(body, eased, unknowns, balance.new_search(body, eased.lower), figure)
+        if _leg_excess_rad(body, figure) > 0.0:
+            refused = middle
+        else:
+            allowed = middle
+    return allowed
 
 
 def _solve(body, plan, wishes):
     unknowns, search, figure = wishes.wanted[:, penalty.WANTED].copy(), balance.new_search(body, plan.lower), new_figure()
-    outcome = solver.solve_torso(body, plan, wishes, unknowns, search, figure)
-    wrists = np.zeros((2, 2))
-    solver.finish_arms(body, plan, figure, wrists[0], wrists[1])
+    wrists = np.zeros((3, 2))
+    plan = plan._replace(arm=plan.arm.copy())  # the solver may change the swivels
+    outcome = solver.solve_torso(body, plan, wishes, unknowns, search, figure, wrists)
     return unknowns, search, figure, outcome, wrists
 
 
-def _eased(body, plan, feet, share):
+def _eased(body, plan, share):
     """The plan with only a share of what it asks of pelvis, knees and balance."""
     if share == 1.0:
         return plan
-    lower, middle = plan.lower, footprints.middle_m(body, feet)
+    lower = plan.lower
+    middle = footprints.middle_m(body, Footprints(lower.ankle_m, lower.foot_turned, lower.toe_rad))
     lower = lower._replace(
         knee_rad=NEUTRAL_KNEE_RAD + share * (lower.knee_rad - NEUTRAL_KNEE_RAD), pelvis_rad=share * lower.pelvis_rad
     )
