@@ -11,7 +11,7 @@ import numpy as np
 
 from engine.body.skeleton import JOINT_COUNT
 from engine.core.world import Component, column
-from engine.physics.layout import STATE_SIZE
+from engine.physics.layout import STATE_SIZE, SUB_STEPS
 
 NOBODY = -1
 
@@ -97,6 +97,8 @@ class Ragdoll(Component):
     """The physics of a character that was struck: MuJoCo's whole integration state."""
 
     state = column(STATE_SIZE)
+    head_mps = column(SUB_STEPS, 3)  # velocity of the head at the sub-steps of the last tick
+    stepped = column(dtype=np.int64)  # the tick that the state is of
     active = column(dtype=bool)
 
 

@@ -40,10 +40,10 @@ def goals_at(tick, mode, ankle_m, turned, from_m, from_turned, lift_m, since, ti
     return FootGoals(goal_m, goal_turned, bound)
 
 
-def goals_of(feet, row: int, tick: int) -> FootGoals:
+def goals_of(feet, row: int, tick: float) -> FootGoals:
     """The goals of one character's feet at a tick."""
     return goals_at(
-        tick,
+        float(tick),
         feet.mode[row],
         feet.ankle_m[row],
         feet.turned[row],

@@ -34,6 +34,7 @@ from behaviours.playing import body_of, clip_pose, perception_clip_s, planted_in
 from behaviours.protection import perceived_threat, protect_from
 from behaviours.recovery import begin_recovery, begin_return, has_fallen, resume_clip
 from behaviours.rules.startle import startle_pose
+from behaviours.settling import settled_pose
 from behaviours.sources import foot_goals, source_pose
 from behaviours.timing import TICK_S, whole_ticks
 from engine.body.kinematics import com_of, joints_of
@@ -54,11 +55,17 @@ def enter(world, row: int, tick: int, phase: Phase) -> None:
     world.emit("phase", world.entity(row), name=phase.name.lower())
 
 
-def keep_continuous(world, row: int, tick: int) -> None:
+def moment_before(world, row: int, tick: int) -> Pose:
+    """What was shown a moment before the last tick, asked of the source that was in force. Before anything is changed."""
+    return Pose(*settled_pose(world, row, tick - 1 - seams.MOMENT))
+
+
+def keep_continuous(world, row: int, tick: int, shown_before: Pose) -> None:
     """Measures the seam between what was shown and what the new phase shows; call it when the phase is all set up."""
-    source, before = source_pose(world, row, tick - 1), source_pose(world, row, tick - 2)
-    goals, goals_before = foot_goals(world, row, tick - 1, source), foot_goals(world, row, tick - 2, before)
-    seams.begin_seam(world, row, tick, body_of(world, row), source, before, goals, goals_before)
+    source, before = source_pose(world, row, tick - 1), source_pose(world, row, tick - 1 - seams.MOMENT)
+    goals = foot_goals(world, row, tick - 1, source)
+    goals_before = foot_goals(world, row, tick - 1 - seams.MOMENT, before)
+    seams.begin_seam(world, row, tick, body_of(world, row), shown_before, source, before, goals, goals_before)
 
 
 def begin_blend(world, row: int, tick: int, start: Pose, end: Pose, ticks: float) -> None:
@@ -75,15 +82,16 @@ def begin_blend(world, row: int, tick: int, start: Pose, end: Pose, ticks: float
 def begin_startle(world, row: int, tick: int, threat_row: int) -> None:
     """The reflex (3.2.6): a fifth of the way to a recoil, the head towards the threat, the standing feet where they are."""
     settings = world.assets.settings
+    old = moment_before(world, row, tick)
     now, _ = seams.shown(world, row)
     ahead_s = world[Reaction].clip_s[row] + settings.timing.startle_ahead_s
     ahead = clip_pose(world, row, ahead_s)
     toward = -world[Threat].travel[threat_row]
-    startled = startle_pose(body_of(world, row), now, ahead, toward, settings)
+    startled = startle_pose(body_of(world, row), ahead, toward, settings)
     plant_standing_feet(world, row, tick)
     begin_blend(world, row, tick, now, startled, float(whole_ticks(settings.timing.startle_s)))
     enter(world, row, tick, Phase.STARTLE)
-    keep_continuous(world, row, tick)
+    keep_continuous(world, row, tick, old)
 
 
 def plant_standing_feet(world, row: int, tick: int) -> None:
@@ -101,13 +109,14 @@ def plant_standing_feet(world, row: int, tick: int) -> None:
 def begin_protecting(world, row: int, tick: int) -> None:
     """The blend to the sustained pose, stretched by the slack so that it is never reached early (4.2)."""
     settings, s, r = world.assets.settings, world[Sustained], world[Reaction]
+    old = moment_before(world, row, tick)
     now, _ = seams.shown(world, row)
     sustained = Pose(s.root_m[row].copy(), s.rotations[row].copy())
     left = max(1, r.contact[row] - tick + 1)
     plan_steps(world, row, tick, sustained, STEP_SHARE * left)
     begin_blend(world, row, tick, now, sustained, left * (1.0 + settings.timing.slack_share))
     enter(world, row, tick, Phase.PROTECT)
-    keep_continuous(world, row, tick)
+    keep_continuous(world, row, tick, old)
 
 
 def plan_steps(world, row: int, tick: int, to: Pose, ticks: float) -> None:
@@ -169,18 +178,20 @@ def advance_reactions(world, tick):
             world.emit("missed", world.entity(row), threat=int(r.threat[row]))
             enter(world, row, tick, Phase.HOLD)
         elif phase == Phase.HOLD and lasted >= whole_ticks(settings.recovery.hold_s):
+            old = moment_before(world, row, tick)
             begin_return(world, row, tick)
             enter(world, row, tick, Phase.RECOVER_RETURN)
-            keep_continuous(world, row, tick)
+            keep_continuous(world, row, tick, old)
         elif phase == Phase.RESPOND and lasted >= whole_ticks(world[Character].response_s[row]):
             end_response(world, row, tick)
         elif phase == Phase.RECOVER_BLEND and lasted >= whole_ticks(settings.recovery.part_one_s):
             world[Ragdoll].active[row] = False
             enter(world, row, tick, Phase.RECOVER_RETURN)
         elif phase == Phase.RECOVER_RETURN and tick - 1 >= world[Blend].since[row] + world[Blend].ticks[row]:
+            old = moment_before(world, row, tick)
             resume_clip(world, row, tick)
             enter(world, row, tick, Phase.PLAY)
-            keep_continuous(world, row, tick)
+            keep_continuous(world, row, tick, old)
             r.threat[row] = NOBODY
 
 
@@ -192,7 +203,7 @@ def end_response(world, row: int, tick: int) -> None:
     if has_fallen(world, row):
         enter(world, row, tick, Phase.DOWN)
         return
+    old = moment_before(world, row, tick)
     begin_recovery(world, row, tick)
     enter(world, row, tick, Phase.RECOVER_BLEND)
-    keep_continuous(world, row, tick)
-    seams.forget_velocity(world, row)
+    keep_continuous(world, row, tick, old)

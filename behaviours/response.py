@@ -28,13 +28,15 @@ from behaviours.components import (
 from behaviours.inertialise import nothing_left
 from behaviours.playing import body_of, perception_clip_s
 from behaviours.reaction import enter
-from behaviours.seams import shown
+from behaviours.seams import MOMENT, shown
+from behaviours.settling import settled_pose
 from behaviours.timing import TICK_S
 from engine.body.kinematics import joints_of
-from engine.body.skeleton import JOINTS, Pose
+from engine.body.skeleton import HEAD, JOINT_COUNT, JOINTS, Pose
 from engine.core.schedule import Stage, system
 from engine.maths import quaternion, vector
 from engine.physics import impact, ragdoll
+from engine.physics.layout import SUB_STEPS
 
 GUARDED = (Phase.STARTLE, Phase.PROTECT, Phase.HOLD)  # in these the sustained pose is what the servos hold
 NEAR_M = 1.5  # a ball farther from the pelvis than its own size plus this meets nobody
@@ -53,9 +55,12 @@ def step_bodies(world, tick):
         pushes = deal_blow(world, row)
         down = world[Reaction].phase[row] == Phase.DOWN
         strength = response.stiffness * (response.down_share if down else 1.0)
+        trace = np.empty((SUB_STEPS, JOINT_COUNT, 3))
         doll.state[row] = ragdoll.step(
-            model, doll.state[row], target, strength, response.damping, TICK_S, pushes
+            model, doll.state[row], target, strength, response.damping, TICK_S, pushes, trace
         )
+        doll.head_mps[row] = trace[:, HEAD]
+        doll.stepped[row] = tick
         carry_ball(world, row, model)
 
 
@@ -125,9 +130,9 @@ def strike(world, row: int, ball: int, hit: impact.Hit, tick: int) -> None:
     """A contact: the impulse, what it does to the ball, and, unless it is a mere touch, to the body."""
     response = world.assets.settings.response
     model = world.assets.models[int(world[Character].body[row])]
-    now, before = shown(world, row)
+    now, _ = shown(world, row)
     simulated = world[Ragdoll].active[row] and world[Reaction].phase[row] in (Phase.RESPOND, Phase.DOWN)
-    state = world[Ragdoll].state[row] if simulated else ragdoll.start(model, now, before, TICK_S)
+    state = world[Ragdoll].state[row] if simulated else moving_state(world, row, tick, model)
     thrown = ball_at(world, ball, place_in_world(world, row, hit), hit.normal)
     material = impact.Material(response.restitution, response.friction)
     impulse = impact.exchange(model, state, thrown, hit, material)
@@ -155,6 +160,12 @@ def strike(world, row: int, ball: int, hit: impact.Hit, tick: int) -> None:
     if not simulated:
         begin_response(world, row, tick, state)
     deal(world, row, ball, model, thrown, impulse, hit)
+
+
+def moving_state(world, row: int, tick: int, model) -> np.ndarray:
+    """The physics' state of a body that is as it is shown, and moves as it does."""
+    before = Pose(*settled_pose(world, row, tick - MOMENT))
+    return ragdoll.start(model, shown(world, row)[0], before, MOMENT * TICK_S)
 
 
 def place_in_world(world, row: int, hit: impact.Hit):
@@ -209,7 +220,9 @@ def begin_response(world, row: int, tick: int, state: np.ndarray) -> None:
         s.root_m[row], s.rotations[row] = now
         r.contact[row] = tick
     world[Ragdoll].state[row] = state
-    world[Ragdoll].active[row] = True
+    model = world.assets.models[int(world[Character].body[row])]
+    world[Ragdoll].head_mps[row] = ragdoll.part_motion_of(model, state)[HEAD]
+    world[Ragdoll].stepped[row], world[Ragdoll].active[row] = tick, True
     for side in range(2):
         foot_plan.let_go(world[Feet], row, side)
     nothing_left(world[Residual], row)

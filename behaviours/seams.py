@@ -1,7 +1,7 @@
 """Seams: the ticks at which one source of poses takes over from another, and what is left of the old motion there.
 
-`begin_seam` is called once a character's phase, clip or blend has been changed for this tick; it measures what the shown
-motion had beyond the new source at the last two ticks. `engine`-free arithmetic is in `behaviours.inertialise`.
+Before a character's phase, clip or blend is changed, what is shown a moment before the seam is asked of the old source; after the
+change `begin_seam` measures what that motion has beyond the new one. The arithmetic is in `behaviours.inertialise`.
 """
 
 from __future__ import annotations
@@ -14,6 +14,7 @@ from behaviours.timing import TICK_S
 from engine.body.kinematics import joints_of
 from engine.body.skeleton import ANKLES, Pose
 
+MOMENT = 1.0 / 64.0  # of a tick: short enough for a velocity, long enough for its digits
 STILL = 1e-4  # metres and radians: below this nothing is left to see
 ANKLE_ROWS = list(ANKLES)
 
@@ -27,13 +28,13 @@ def shown(world, row: int) -> tuple[Pose, Pose]:
     )
 
 
-def begin_seam(world, row: int, tick: int, body, source, source_before, goals, goals_before) -> None:
+def begin_seam(world, row: int, tick: int, body, shown_before: Pose, source, source_before, goals, goals_before) -> None:
     """Keeps what the shown motion has beyond the new source.
 
-    `source`, `source_before`: the new source's poses at the last two ticks that were shown; `goals`, `goals_before`: where
-    its feet are to be then (FootGoals).
+    `source`: the new source's pose at the last tick; `goals`: where its feet are to be then (FootGoals); `..._before`: the same,
+    and what was shown, a MOMENT before. The shown velocity is thus the old source's own, one-sided.
     """
-    now, before = shown(world, row)
+    now, _ = shown(world, row)
     r = world[Residual]
     r.since[row] = tick - 1
     inertialise.measure_seam(
@@ -43,13 +44,13 @@ def begin_seam(world, row: int, tick: int, body, source, source_before, goals, g
         source_before.rotations,
         now.root_m,
         now.rotations,
-        before.root_m,
-        before.rotations,
-        TICK_S,
+        shown_before.root_m,
+        shown_before.rotations,
+        MOMENT * TICK_S,
         r.root[row],
         r.joints[row],
     )
-    _keep_ankles(r, row, body, now, before, goals, goals_before)
+    _keep_ankles(r, row, body, now, shown_before, goals, goals_before)
 
 
 def _keep_ankles(residual, row, body, now, before, goals, goals_before) -> None:
@@ -58,11 +59,11 @@ def _keep_ankles(residual, row, body, now, before, goals, goals_before) -> None:
     for side in range(2):
         offset = at[side] - goals.ankle_m[side]
         residual.ankles[row, 0, side] = offset
-        residual.ankles[row, 1, side] = (offset - (at_before[side] - goals_before.ankle_m[side])) / TICK_S
+        residual.ankles[row, 1, side] = (offset - (at_before[side] - goals_before.ankle_m[side])) / (MOMENT * TICK_S)
         turn = np.array(inertialise.turn_from(goals.turned[side], turned[side]))
         was = np.array(inertialise.turn_from(goals_before.turned[side], turned_before[side]))
         residual.ankle_turns[row, 0, side] = turn
-        residual.ankle_turns[row, 1, side] = (turn - was) / TICK_S
+        residual.ankle_turns[row, 1, side] = (turn - was) / (MOMENT * TICK_S)
 
 
 def _ankles(body, pose: Pose) -> tuple[np.ndarray, np.ndarray]:
@@ -70,14 +71,7 @@ def _ankles(body, pose: Pose) -> tuple[np.ndarray, np.ndarray]:
     return positions[ANKLE_ROWS], orientations[ANKLE_ROWS]
 
 
-def forget_velocity(world, row: int) -> None:
-    """Keeps only the offsets of a seam: the new source already moves as the old one did."""
-    r = world[Residual]
-    for column in (r.root, r.joints, r.ankles, r.ankle_turns):
-        column[row, 1] = 0.0
-
-
-def elapsed_s(world, row: int, tick: int) -> float:
+def elapsed_s(world, row: int, tick: float) -> float:
     """Time since the last seam."""
     return float(tick - world[Residual].since[row]) * TICK_S
 

@@ -75,7 +75,6 @@ class Block(NamedTuple):
     swivel_small_rad: Annotated[float, Constant("rad", "3.2.5", "elbow away from down, control 0")] = radians(70)
     swivel_large_rad: Annotated[float, Constant("rad", "3.2.5", "elbow away from down, control 1")] = radians(10)
     soften_m: Annotated[float, Constant("m", "A3.4", "width over which reach, clearance and plane meet")] = 0.02
-    elbow_gap_m: Annotated[float, Constant("m", "A3.4", "skin of the elbow to skin of the torso, at least")] = 0.01
 
 
 class Wrap(NamedTuple):
@@ -83,7 +82,7 @@ class Wrap(NamedTuple):
 
     behind_low: Annotated[float, Constant("1", "A5", "facing . threat at and below which the arms wrap fully")] = -0.15
     behind_high: Annotated[float, Constant("1", "A5", "facing . threat at and above which they block fully")] = 0.15
-    palm_gap_m: Annotated[float, Constant("m", "3.4", "palm off the back of the head")] = 0.025
+    palm_gap_m: Annotated[float, Constant("m", "3.4", "skin of the hand off the back of the head")] = 0.0
     palm_apart_m: Annotated[float, Constant("m", "3.4", "each palm off the middle")] = 0.05
     palm_below_m: Annotated[float, Constant("m", "3.4", "palms below the head's centre")] = 0.02
     fingers_inward_rad: Annotated[float, Constant("rad", "3.4", "fingers from upright towards each other")] = radians(55)
@@ -113,6 +112,7 @@ class Balance(NamedTuple):
     leg_share: Annotated[float, Constant("1", "A4", "of a leg's length that planting may use")] = 0.99
     lift_over_m: Annotated[float, Constant("m", "A4", "a foot that moves farther is lifted on an arc")] = 0.03
     lift_height_m: Annotated[float, Constant("m", "A4", "height of that arc")] = 0.05
+    limit_margin_rad: Annotated[float, Constant("rad", "A", "hips, ankles and shoulders keep this far inside their limits")] = radians(0.5)
     foot_tolerance_m: Annotated[float, Constant("m", "A4", "planted feet end where they were planted within this")] = 1e-4
 
 
@@ -126,6 +126,7 @@ class Objective(NamedTuple):
     pelvis_height_weight: Annotated[float, Constant("1", "A4", "weight of the pelvis's height")] = 1.0
     feet_weight: Annotated[float, Constant("1", "A4", "weight of each foot's distance")] = 5.0
     control_weight: Annotated[float, Constant("1", "A4", "weight of each control's change")] = 0.1
+    limits_weight: Annotated[float, Constant("1/rad", "A", "weight of what joint limits and trunk forbid each limb")] = 3.0
     outside_weight: Annotated[float, Constant("1", "A4", "weight of a control's excess over [0, 1]")] = 1.0
     smoothing_m: Annotated[float, Constant("m", "A4", "rounding of the smoothed form's norms")] = 0.01
 

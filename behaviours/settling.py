@@ -79,8 +79,8 @@ def settle_poses(world, tick):
         world[Feet].planted[row] = standing_feet(world, int(row), tick)
 
 
-def settled_pose(world, row: int, tick: int) -> tuple[np.ndarray, np.ndarray]:
-    """(3,) and (J, 4): the pose to show."""
+def settled_pose(world, row: int, tick: float) -> tuple[np.ndarray, np.ndarray]:
+    """(3,) and (J, 4): the pose to show. Also between ticks, in the present phase."""
     r, half_life_s = world[Residual], world.assets.settings.blend.seam_half_life_s
     source = source_pose(world, row, tick)
     phase = world[Reaction].phase[row]

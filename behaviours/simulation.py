@@ -26,8 +26,10 @@ from behaviours.components import (
 )
 from behaviours.flying import fly_balls
 from behaviours.launching import launch_threats, throw
+from behaviours.observing import Observer
 from behaviours.placing import placed
 from behaviours.reaction import advance_reactions, notice
+from behaviours.report import report_of
 from behaviours.response import meet_balls, step_bodies
 from behaviours.scenario import CharacterSpec, Scenario, ThreatSpec
 from behaviours.senses import watch_free_threats
@@ -146,22 +148,27 @@ def apply_command(world: World, command: Command) -> None:
 
 
 class Simulation:
-    """A world and its schedule, to be stepped."""
+    """A world and its schedule, to be stepped; with `observe`, watched for the report."""
 
-    def __init__(self, scenario: Scenario, find: FindClip, checked: bool = False):
+    def __init__(self, scenario: Scenario, find: FindClip, *, observe: bool = False, checked: bool = False):
         self.scenario = scenario
         self.world = build_world(scenario, find)
         self.schedule = Schedule(SYSTEMS, checked=checked)
+        self.observer = Observer(self.world, self.world.assets.character_rows) if observe else None
 
     @property
     def ticks(self) -> int:
         """How many ticks the scenario lasts."""
         return round(self.scenario.duration_s / TICK_S)
 
-    def step(self) -> None:
-        """One tick."""
+    def step(self, world: World | None = None) -> None:
+        """One tick. Takes the world as recorders pass it; it is always this simulation's own."""
         self.schedule.tick(self.world)
+        if self.observer:
+            self.observer.look(self.world)
 
-    def command(self, command: Command) -> None:
-        """Something from outside, before the next tick."""
-        apply_command(self.world, command)
+    def report(self) -> dict[str, Any]:
+        """What happened, as `brace react --json` has it. ValueError unless observed."""
+        if self.observer is None:
+            raise ValueError("only a simulation made with observe=True can report")
+        return report_of(self.world, self.observer.tracks)

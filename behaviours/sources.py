@@ -11,7 +11,7 @@ from behaviours.blending import FootGoals, blend_end, blend_into
 from behaviours.components import Blend, Character, Feet, Phase, Ragdoll, Reaction
 from behaviours.feet import goals_of
 from behaviours.playing import body_of, clip_pose, clip_time_s
-from behaviours.timing import ease, whole_ticks
+from behaviours.timing import TICK_S, ease, whole_ticks
 from engine.body.kinematics import joints_of
 from engine.body.skeleton import ANKLES, JOINT_COUNT, Pose
 from engine.physics import ragdoll
@@ -19,25 +19,26 @@ from engine.physics import ragdoll
 ANKLE_ROWS = list(ANKLES)
 
 
-def source_pose(world, row: int, tick: int) -> Pose:
-    """The pose that the present phase asks for at a tick. World; a copy."""
+def source_pose(world, row: int, tick: float) -> Pose:
+    """The pose that the present phase asks for at a tick, whole or not. World; a copy."""
     phase = world[Reaction].phase[row]
     if phase == Phase.PLAY:
         return clip_pose(world, row, clip_time_s(world, row, tick))
     if phase in (Phase.RESPOND, Phase.DOWN):
-        return simulated_pose(world, row)
+        return simulated_pose(world, row, tick)
     if phase == Phase.RECOVER_BLEND:
         return simulation_into_sustained(world, row, tick)
     return blended_pose(world, row, tick)
 
 
-def simulated_pose(world, row: int) -> Pose:
-    """The physics' pose as it is now."""
-    model = world.assets.models[world[Character].body[row]]
-    return ragdoll.read(model, world[Ragdoll].state[row])[0]
+def simulated_pose(world, row: int, tick: float) -> Pose:
+    """The physics' pose, `r.stepped` being the tick of its state; a moment off that, carried on by its velocities."""
+    doll = world[Ragdoll]
+    model = world.assets.models[int(world[Character].body[row])]
+    return ragdoll.carried_on(model, doll.state[row], float(tick - doll.stepped[row]) * TICK_S)
 
 
-def blended_pose(world, row: int, tick: int) -> Pose:
+def blended_pose(world, row: int, tick: float) -> Pose:
     """Between the two still ends of the present blend, at its clock (thesis 4.3)."""
     b = world[Blend]
     body = body_of(world, row)
@@ -47,10 +48,10 @@ def blended_pose(world, row: int, tick: int) -> Pose:
     return _between(world, row, tick, body, start, end, weight)
 
 
-def simulation_into_sustained(world, row: int, tick: int) -> Pose:
+def simulation_into_sustained(world, row: int, tick: float) -> Pose:
     """Recovery, part one: from the running simulation into the sequence of the return blend (thesis 4.1.3)."""
     body = body_of(world, row)
-    simulated, returning = simulated_pose(world, row), blended_pose(world, row, tick)
+    simulated, returning = simulated_pose(world, row, tick), blended_pose(world, row, tick)
     part_one = whole_ticks(world.assets.settings.recovery.part_one_s)
     weight = ease((tick - world[Reaction].since[row] + 1) / part_one)
     start = blend_end(body, simulated.root_m, simulated.rotations)
@@ -65,7 +66,7 @@ def _between(world, row, tick, body, start, end, weight) -> Pose:
     return Pose(root_m, rotations)
 
 
-def foot_goals(world, row: int, tick: int, source: Pose) -> FootGoals:
+def foot_goals(world, row: int, tick: float, source: Pose) -> FootGoals:
     """Where both ankles are to be: by the plan where a foot is held or steps, else where the source has them."""
     planned = goals_of(world[Feet], row, tick)
     positions, orientations = joints_of(body_of(world, row), source)

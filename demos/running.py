@@ -26,14 +26,14 @@ def open_scenario(name_or_path: str, overrides: Sequence[str] = ()) -> tuple[Sce
     return load_scenario(path, tuple(overrides)), path.resolve().parent
 
 
-def start(scenario: Scenario, folder: Path) -> Simulation:
-    """The scenario at its first tick, with kernels that match their sources."""
+def start(scenario: Scenario, folder: Path, observe: bool = False) -> Simulation:
+    """The scenario at its first tick, with kernels that match their sources; with `observe`, able to report."""
     forget_stale()
 
     def find(spec: CharacterSpec) -> Clip:
         return find_clip(spec.clip, relative_to=folder, sex=spec.sex, body_mass_kg=spec.mass_kg)
 
-    return Simulation(scenario, find)
+    return Simulation(scenario, find, observe=observe)
 
 
 def journal_of(simulation: Simulation, folder: Path) -> Journal:
@@ -48,7 +48,7 @@ def journal_of(simulation: Simulation, folder: Path) -> Journal:
 
 def recorder_of(simulation: Simulation, folder: Path) -> Recorder:
     """Records every tick from here on."""
-    return Recorder(simulation.world, simulation.schedule.tick, apply_command, journal_of(simulation, folder))
+    return Recorder(simulation.world, simulation.step, apply_command, journal_of(simulation, folder))
 
 
 def replayed(journal: Journal, where: str) -> tuple[Simulation, Recorder]:
@@ -62,7 +62,7 @@ def replayed(journal: Journal, where: str) -> tuple[Simulation, Recorder]:
     for spec, clip, key in zip(simulation.scenario.character, simulation.world.assets.clips, keys, strict=True):
         if clip.key != key:
             raise BadInput("recording", f"the clip {spec.clip!r} is not the one that was recorded with", where)
-    return simulation, replay(simulation.world, simulation.schedule.tick, apply_command, journal)
+    return simulation, replay(simulation.world, simulation.step, apply_command, journal)
 
 
 def with_progress(steps: Iterable[T], what: str, total: int) -> Iterable[T]:

@@ -29,7 +29,7 @@ def run(args: argparse.Namespace) -> None:
     if args.record:
         check_writable(args.record)
     scenario, folder = open_scenario(args.scenario, args.set)
-    simulation = start(scenario, folder)
+    simulation = start(scenario, folder, observe=True)
     recorder = recorder_of(simulation, folder) if args.record else None
     advance = recorder.advance if recorder else simulation.step
     for _ in with_progress(range(simulation.ticks), "simulating", simulation.ticks):

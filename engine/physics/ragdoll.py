@@ -12,13 +12,12 @@ from typing import NamedTuple
 import mujoco
 import numpy as np
 
-from engine.body.skeleton import HEAD, JOINT_COUNT, PARENT, Pose
-from engine.maths import quaternion, rotations, vector
+from engine.body.skeleton import JOINT_COUNT, PARENT, Pose
+from engine.maths import rotations
 from engine.maths.springs import half_sine
 from engine.physics import tracking
 from engine.physics.model import SUB_STEPS_HZ, RagdollModel
 
-HEAD_CENTRE = 0.5  # of the way from the head's joint to its crown
 _KIND = mujoco.mjtState.mjSTATE_INTEGRATION
 
 
@@ -123,19 +122,12 @@ def motion_of(model: RagdollModel, state: np.ndarray) -> tuple[np.ndarray, np.nd
     return tracking.joint_velocities(PARENT, model.body.offset_m, state[model.positions], state[model.velocities])
 
 
-def head_velocity(model: RagdollModel, state: np.ndarray) -> np.ndarray:
-    """(3,) velocity of the middle of the head, world."""
-    return _velocity_of_place(
-        model, state[model.positions], state[model.velocities], HEAD, HEAD_CENTRE * model.body.head_top_m
+def part_motion_of(model: RagdollModel, state: np.ndarray) -> np.ndarray:
+    """(J, 3) velocity of every part's centre of mass, world: what `step` traces."""
+    body = model.body
+    return tracking.part_velocities(
+        PARENT, body.offset_m, body.part_com_m, state[model.positions], state[model.velocities]
     )
-
-
-def _velocity_of_place(model, qpos, qvel, joint, place_m):
-    """(3,) of a place in a joint's frame, world."""
-    _, orientations = tracking.world_frames(PARENT, model.body.offset_m, qpos)
-    linear, angular = tracking.joint_velocities(PARENT, model.body.offset_m, qpos, qvel)
-    arm = quaternion.rotate(orientations[joint], place_m)
-    return linear[joint] + vector.cross(angular[joint], arm)
 
 
 def share_in(push: Push, from_s: float, to_s: float) -> float:

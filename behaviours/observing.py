@@ -1,0 +1,124 @@
+"""Watching a run: what one character did, tick by tick, kept beside the world for reports and films. Never part of the state."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from behaviours.components import Blend, Feet, Phase, Playback, Posture, Ragdoll, Reaction
+from behaviours.playing import body_of
+from behaviours.seams import MOMENT
+from behaviours.settling import settled_pose
+from behaviours.sources import source_pose
+from behaviours.timing import TICK_S
+from engine.body.kinematics import com_of, joints_of
+from engine.body.skeleton import Body, Pose
+
+BLENDED = (Phase.STARTLE, Phase.PROTECT, Phase.HOLD, Phase.RECOVER_RETURN)
+
+
+@dataclass
+class Track:
+    """One character's run; lists have one entry a tick."""
+
+    body: Body
+    tick: list[int] = field(default_factory=list)
+    phase: list[int] = field(default_factory=list)
+    root_m: list[np.ndarray] = field(default_factory=list)
+    rotations: list[np.ndarray] = field(default_factory=list)
+    planted: list[np.ndarray] = field(default_factory=list)
+    seams: list[Seam] = field(default_factory=list)
+    lines: list[Line] = field(default_factory=list)
+    head_mps: list[np.ndarray] = field(default_factory=list)  # (sub-steps, 3) each tick under physics, empty elsewhere
+    clip: list[int] = field(default_factory=list)
+    before: np.ndarray | None = None  # joints a moment before the last tick, under the phase in force then
+
+    @property
+    def pose(self) -> Pose:
+        """All ticks as one pose with a leading axis."""
+        return Pose(np.array(self.root_m), np.array(self.rotations))
+
+
+@dataclass(frozen=True)
+class Seam:
+    """One-sided positions and velocities at a tick where one source took over from another: (J, 3) each."""
+
+    tick: int
+    into: Phase
+    shown_m: np.ndarray
+    taken_up_m: np.ndarray
+    before_mps: np.ndarray
+    after_mps: np.ndarray
+
+
+@dataclass(frozen=True)
+class Line:
+    """What a blend's source (before any residual) makes of the straight lines of 4.3, at one tick. Metres, world."""
+
+    tick: int
+    between_m: np.ndarray  # (J, 3) joints of the source
+    start_m: np.ndarray  # (J, 3) and of the blend's two ends
+    end_m: np.ndarray
+    com_m: np.ndarray  # (3,)
+    com_ends_m: tuple[np.ndarray, np.ndarray]
+
+
+class Observer:
+    """Looks at a world after every tick."""
+
+    def __init__(self, world, rows):
+        self.tracks = {row: Track(body_of(world, row)) for row in rows}
+
+    def look(self, world) -> None:
+        """After a tick: world.tick is the next one, the state is that of the one before."""
+        tick = world.tick - 1
+        for row, track in self.tracks.items():
+            _note_seam(world, row, tick, track)
+            _note(world, row, tick, track)
+
+
+def _note(world, row: int, tick: int, track: Track) -> None:
+    p, r = world[Posture], world[Reaction]
+    track.tick.append(tick)
+    track.phase.append(int(r.phase[row]))
+    track.root_m.append(p.root_m[row].copy())
+    track.rotations.append(p.rotations[row].copy())
+    track.planted.append(world[Feet].planted[row].copy())
+    track.clip.append(int(world[Playback].clip[row]))
+    physics = world[Ragdoll].active[row]
+    track.head_mps.append(world[Ragdoll].head_mps[row].copy() if physics else np.empty((0, 3)))
+    if r.phase[row] in BLENDED:
+        track.lines.append(_line(world, row, tick, track.body))
+    track.before = _joints(track.body, settled_pose(world, row, tick - MOMENT))
+
+
+def _line(world, row: int, tick: int, body: Body) -> Line:
+    b = world[Blend]
+    source = source_pose(world, row, tick)
+    ends = (Pose(b.from_root_m[row], b.from_rotations[row]), Pose(b.to_root_m[row], b.to_rotations[row]))
+    start_m, end_m = (joints_of(body, end)[0] for end in ends)
+    return Line(
+        tick, joints_of(body, source)[0], start_m, end_m, com_of(body, source), (com_of(body, ends[0]), com_of(body, ends[1]))
+    )
+
+
+def _note_seam(world, row: int, tick: int, track: Track) -> None:
+    """Both sides of a phase that began with this tick: the seam lies at the tick before, the last that the old source showed."""
+    if not track.phase or world[Reaction].since[row] != tick or track.phase[-1] == world[Reaction].phase[row]:
+        return
+    if world[Reaction].phase[row] == Phase.RESPOND:
+        return  # a blow begins at the end of a tick, on what is shown: its velocities are the impulse's
+    seam_tick = tick - 1
+    shown = _joints(track.body, (track.root_m[-1], track.rotations[-1]))
+    taken_up = _joints(track.body, settled_pose(world, row, seam_tick))
+    later = _joints(track.body, settled_pose(world, row, seam_tick + MOMENT))
+    moment_s = MOMENT * TICK_S
+    track.seams.append(
+        Seam(tick, Phase(int(world[Reaction].phase[row])), shown, taken_up, (shown - track.before) / moment_s, (later - taken_up) / moment_s)
+    )
+
+
+def _joints(body: Body, pose) -> np.ndarray:
+    """(J, 3) world."""
+    return joints_of(body, Pose(*pose))[0]

@@ -1,0 +1,78 @@
+"""The account of a run: its events, its phases and its measures, as `brace react --json` prints them."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from behaviours import measures
+from behaviours.components import Phase, Reaction
+from behaviours.observing import Track
+from behaviours.timing import TICK_S
+from engine.body.limits import excess_rad
+
+
+def event_rows(world) -> list[dict[str, Any]]:
+    """Every event as plain data, in order."""
+    return [{"t_s": event.tick * TICK_S, "kind": event.kind, "entity": event.entity, **event.data} for event in world.events]
+
+
+def phase_rows(track: Track) -> list[dict[str, Any]]:
+    """The phases one after the other: name, from_s, to_s."""
+    rows: list[dict[str, Any]] = []
+    for tick, phase in zip(track.tick, track.phase, strict=True):
+        name = Phase(phase).name.lower()
+        if not rows or rows[-1]["name"] != name:
+            rows.append({"name": name, "from_s": tick * TICK_S, "to_s": tick * TICK_S})
+        rows[-1]["to_s"] = (tick + 1) * TICK_S
+    return rows
+
+
+def metrics_of(world, row: int, track: Track) -> dict[str, Any]:
+    """The measures of one character's run; None where nothing happened that could be measured."""
+    who = world.entity(row)
+    mine = [event for event in world.events if event.entity == who]
+    perceived = [event.data for event in mine if event.kind == "perceived"]
+    contacts = [event.data for event in mine if event.kind == "contact"]
+    clip = world.assets.clips[track.clip[0]]
+    head_g = measures.head_acceleration_g(track)
+    place, speed = measures.seam_jumps(track)
+    phase = Phase(int(world[Reaction].phase[row]))
+    return {
+        "ttc_s": perceived[0]["ttc_s"] if perceived else None,
+        "contact_error_s": contacts[0]["late_s"] if contacts else None,
+        "first_contact": contacts[0]["part"] if contacts else None,
+        "head_peak_g": float(head_g.max()) if len(head_g) else None,
+        "hic15": measures.hic15(head_g) if len(head_g) else None,
+        "foot_slide_max_m": measures.foot_slide_max_m(track),
+        "hand_line_deviation_max_m": measures.hand_line_deviation_max_m(track.lines),
+        "com_line_deviation_max_m": measures.com_line_deviation_max_m(track.lines),
+        "com_margin_min_m": measures.com_margin_min_m(track),
+        "joint_limit_excess_max_rad": measures.joint_limit_excess_max_rad(track, clip_excess_rad(clip)),
+        "seam_position_jump_max_m": place,
+        "seam_velocity_jump_max_mps": speed,
+        "recovered_to": recovered_to(track, clip.name, phase),
+    }
+
+
+def clip_excess_rad(clip) -> np.ndarray:
+    """(J,) how far the clip itself oversteps each joint's limits, at most."""
+    return excess_rad(clip.body, clip.pose.rotations).max(axis=0)
+
+
+def recovered_to(track: Track, clip_name: str, phase: Phase) -> str | None:
+    """The clip that was taken up again after a reaction; None if there was none or it is not over; "down" after a fall."""
+    if phase == Phase.DOWN:
+        return "down"
+    reacted = any(p != Phase.PLAY for p in track.phase)
+    return clip_name if reacted and phase == Phase.PLAY else None
+
+
+def report_of(world, tracks: dict[int, Track]) -> dict[str, Any]:
+    """The whole report. The first character's phases and metrics at the top level; all of them in `characters` if there are more."""
+    accounts = [{"phases": phase_rows(track), "metrics": metrics_of(world, row, track)} for row, track in tracks.items()]
+    report = {"events": event_rows(world), **accounts[0], "digest": world.digest(), "ticks": world.tick}
+    if len(accounts) > 1:
+        report["characters"] = accounts
+    return report
