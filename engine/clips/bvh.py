@@ -219,4 +219,4 @@ def _use_position(reading: Reading, joint: Joint, axis: int, column: np.ndarray,
 def _frames_per_second(frame_s: float) -> float:
     """Whole rates written with few digits (.0083333, 0.033333) are that whole rate."""
     fps = 1.0 / frame_s
-    return float(round(fps)) if abs(fps - round(fps)) < 2e-3 * fps else fps
+    return float(round(fps)) if abs(fps - round(fps)) < 2e-4 * fps else fps

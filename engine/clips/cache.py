@@ -33,7 +33,8 @@ def cache_folder() -> Path:
 def load(key: str) -> Clip | None:
     """The clip of this key, or None if it is not there or cannot be used."""
     try:
-        with np.load(_path(key), allow_pickle=False) as arrays:
+        with open(_path(key), "rb") as file:
+            arrays = np.load(file, allow_pickle=False)
             words = json.loads(str(arrays["words"]))
             return Clip(
                 name=words["name"],

@@ -52,7 +52,10 @@ def _bad(path: Path, found: str, expected: str) -> BadInput:
 
 def _load(path: Path) -> dict[str, np.ndarray]:
     try:
-        with np.load(path, allow_pickle=False) as archive:
+        with open(path, "rb") as file:
+            archive = np.load(file, allow_pickle=False)
+            if not isinstance(archive, np.lib.npyio.NpzFile):
+                raise _bad(path, "a single array", "an archive of several")
             missing = [name for name in NEEDED if name not in archive]
             if missing:
                 raise _bad(path, f"no array {missing[0]!r}", f"a motion with {', '.join(NEEDED)}")
