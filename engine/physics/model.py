@@ -15,8 +15,9 @@ from dataclasses import dataclass, field
 import mujoco
 import numpy as np
 
-from engine.body.anthropometry import joints_at_identity, point_inertia
+from engine.body.anthropometry import joints_at_identity
 from engine.body.capsules import CAPSULES, body_capsules
+from engine.body.mass_parts import point_inertia
 from engine.body.skeleton import JOINT_COUNT, JOINTS, PARENT, SOLE_POINTS, Body
 from engine.core.errors import EnvironmentTrouble
 from engine.maths.ballistics import GRAVITY_MPS2

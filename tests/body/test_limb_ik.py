@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from engine.body import kinematics, limb_ik
+from engine.body import kinematics, limb_ik, two_bones
 from engine.body.anthropometry import standard_body
 from engine.body.skeleton import ANKLES, ELBOWS, HIPS, KNEES, SHOULDERS, TOES, WRISTS, Pose
 from engine.maths import quaternion
@@ -131,13 +131,13 @@ def test_reach_saturates_smoothly_and_keeps_the_present_length(below_m):
     full, soft = 0.56, 0.01
     present = full - below_m
     wanted = np.linspace(full - 0.03, full + 0.03, 6001)
-    reach = np.array([limb_ik.soft_reach(w, present, full, soft) for w in wanted])
+    reach = np.array([two_bones.soft_reach(w, present, full, soft) for w in wanted])
     step = wanted[1] - wanted[0]
     slopes = np.diff(reach) / step
     assert reach.max() <= full + 1e-12
     assert (slopes > -1e-9).all()
     assert np.abs(np.diff(slopes)).max() < 900 * step  # curvature bounded: no kink (a kink would be 0.5 or more)
-    assert limb_ik.soft_reach(present, present, full, soft) == pytest.approx(present, abs=1e-12)
+    assert two_bones.soft_reach(present, present, full, soft) == pytest.approx(present, abs=1e-12)
     assert (reach[wanted < full - soft] == wanted[wanted < full - soft]).all()
     assert (reach - wanted).max() < 0.15 * soft
 
