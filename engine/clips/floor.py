@@ -15,6 +15,7 @@ from engine.clips.contacts import BALL_NEAR_M, planted, slow_limit, speeds
 from engine.maths import rotations
 
 WINDOW_S = 1.0
+ROUNDS = 4
 # how far the footprints must be spread before their heights say much about a slope, and the greatest slope believed
 SPREAD_M, STEEPEST = 0.25, 0.05
 # more than the levels of two standing feet differ by
@@ -35,7 +36,7 @@ def fit_floor(ball_m: np.ndarray, ankle_m: np.ndarray, pelvis_m: np.ndarray, fps
     """The floor under balls and ankles (F, 2, 3) that were captured at some rate. Feet that never stand take the
     other's level."""
     stands = _first_guess(ball_m, pelvis_m, fps)
-    for _ in range(4):
+    for _ in range(ROUNDS):
         levels, slope = _plane(ball_m, stands)
         rise = np.sum(ankle_m[..., :2] * slope, axis=-1)
         ankle_levels = _ankle_levels(ankle_m[..., 2] - rise, stands)
@@ -66,6 +67,9 @@ def _first_guess(ball_m: np.ndarray, pelvis_m: np.ndarray, fps: float) -> np.nda
 def _plane(ball_m: np.ndarray, stands: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Levels (2,) of the two balls and one slope (2,), least squares with the slope held back as if by footprints
     spread SPREAD_M, the farthest outliers (toes that push off, heels that strike) left out."""
+    if not stands.any():
+        # someone who never stands (a slide, a fall) has the floor at the lowest point reached
+        return np.repeat(ball_m[..., 2].min(), 2), np.zeros(2)
     frame, side = np.nonzero(stands)
     at, height = ball_m[frame, side, :2], ball_m[frame, side, 2]
     centre = at.mean(axis=0)
@@ -93,5 +97,7 @@ def _plane(ball_m: np.ndarray, stands: np.ndarray) -> tuple[np.ndarray, np.ndarr
 def _ankle_levels(height: np.ndarray, stands: np.ndarray) -> np.ndarray:
     """Where each ankle is while its foot stands flat: the low end of its heights while the foot stands."""
     level = np.array([np.percentile(height[stands[:, s], s], 25.0) if stands[:, s].any() else np.nan for s in (0, 1)])
-    lowest = np.nanmin(level) if not np.isnan(level).all() else 0.0
+    if np.isnan(level).all():
+        return np.repeat(height.min(), 2)
+    lowest = np.nanmin(level)
     return np.where(np.isnan(level) | (level > lowest + FEET_APART_M), lowest, level)

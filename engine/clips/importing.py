@@ -159,11 +159,13 @@ def _turned(pose: Pose, turn: np.ndarray) -> Pose:
 
 
 def _ball_levels(positions: np.ndarray, floor: Floor) -> np.ndarray:
-    """Heights (2,) of the balls of standing feet once the floor is level; the lowest ball's for a foot that never
-    stands."""
+    """Heights (2,) of the balls of standing feet once the floor is level; a foot that never stands takes the other's,
+    and two that never stand the lowest point reached."""
     heights = positions[:, list(TOES), 2]
+    if not floor.planted.any():
+        return np.repeat(heights.min(), 2)
     level = [np.median(heights[floor.planted[:, s], s]) if floor.planted[:, s].any() else np.inf for s in (0, 1)]
-    return np.minimum(level, min(level)) if not np.isfinite(level).all() else np.array(level)
+    return np.where(np.isinf(level), min(level), level)
 
 
 def _facing_ahead(pose: Pose, floor_m: float) -> tuple[Pose, float]:

@@ -38,6 +38,7 @@ from engine.maths import rotations
 
 # a limb bent less than this tells nothing about its hinge; one bent more than that tells all
 HINGE_UNSURE_RAD, HINGE_SURE_RAD = np.radians(12.0), np.radians(35.0)
+SHORTEST_BONE_M = 0.01
 STATURE_PER_LEG = 1.0 / 0.495  # de Leva 1996, males: thigh and shank are 49.5 % of stature
 
 
@@ -76,11 +77,13 @@ def map_tracks(tracks: Tracks, rig: Rig, axes: Axes) -> Mapped:
 def _source(tracks: Tracks, axes: Axes) -> Source:
     positions, orientations = world_of(tracks)
     back = rotations.conjugate(axes.rest_from_file)
+    tips = {row: rotations.rotate(axes.rest_from_file, tip) * axes.scale_to_m for row, tip in tracks.tips.items()}
     return Source(
         rotations.rotate(axes.world_from_file, positions) * axes.scale_to_m,
         rotations.multiply(rotations.multiply(axes.world_from_file, orientations), back),
         rotations.rotate(axes.rest_from_file, rest_positions(tracks)) * axes.scale_to_m,
-        {row: rotations.rotate(axes.rest_from_file, tip) * axes.scale_to_m for row, tip in tracks.tips.items()},
+        # many files end a chain with a site of no length, which says nothing
+        {row: tip for row, tip in tips.items() if np.linalg.norm(tip) > SHORTEST_BONE_M},
     )
 
 
