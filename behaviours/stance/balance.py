@@ -14,7 +14,7 @@ from numba import njit
 
 from behaviours.stance import lower_body
 from behaviours.stance.assembly import assemble
-from engine.body.skeleton import ANKLES, KNEES, PELVIS
+from engine.body.skeleton import PELVIS
 from engine.maths import quaternion, vector
 
 # of what the hips move, the centre of mass moves about this share: the start of the search
@@ -32,16 +32,12 @@ class BalanceSearch(NamedTuple):
 
 
 @njit(cache=True)
-def new_search(body, lower):
+def new_search(lower):
     """Offsets of zero and a first guess of what they do: they swing the leg about its ankle."""
     search = BalanceSearch(np.zeros(2), np.empty((2, 2)))
-    knee, ankle = KNEES[lower.root], ANKLES[lower.root]
-    length = lower_body.leg_length(
-        abs(body.offset_m[knee, 2]), abs(body.offset_m[ankle, 2]), max(lower.knee_rad[lower.root], 0.0)
-    )
-    heading = lower_body.facing_rad(lower.ankle_m, lower.foot_turned, lower.root)
-    gain = 1.0 / (SHARE_OF_HIPS * length)
-    c, s = math.cos(heading), math.sin(heading)
+    gain = 1.0 / (SHARE_OF_HIPS * lower.leg_m[lower.root])
+    ahead = quaternion.rotate(lower.facing, (1.0, 0.0, 0.0))
+    c, s = ahead[0], ahead[1]
     # X swings ahead, Z swings to the right
     search.inverse[0, 0], search.inverse[0, 1] = gain * c, gain * s
     search.inverse[1, 0], search.inverse[1, 1] = gain * s, -gain * c

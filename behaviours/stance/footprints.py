@@ -6,6 +6,7 @@ import math
 from typing import NamedTuple
 
 import numpy as np
+from numba import njit
 
 from engine.body import footing
 from engine.body.skeleton import HIPS, TOES
@@ -48,36 +49,55 @@ def stand(
 
 def raised(body, feet: Footprints, rise_rad) -> Footprints:
     """The same feet with the heels up by an angle (one number or left, right): toes and balls stay where they are."""
-    angles = np.broadcast_to(np.asarray(rise_rad, float), (2,))
-    ankle_m, foot_turned, toe_rad = feet.ankle_m.copy(), feet.foot_turned.copy(), feet.toe_rad + angles
+    if not np.any(rise_rad):
+        return feet
+    return Footprints(*_raised(body, *feet, np.array(np.broadcast_to(np.asarray(rise_rad, float), (2,)))))
+
+
+@njit(cache=True)
+def _raised(body, ankle_m, foot_turned, toe_rad, rise_rad):
+    ankle_m, foot_turned = ankle_m.copy(), foot_turned.copy()
     for side in range(2):
         toe = body.offset_m[TOES[side]]
-        ball = vector.add(feet.ankle_m[side], quaternion.rotate(feet.foot_turned[side], toe))
-        foot_turned[side] = quaternion.multiply(feet.foot_turned[side], quaternion.about_y(angles[side]))
-        ankle_m[side] = vector.subtract(ball, quaternion.rotate(foot_turned[side], toe))
-    return Footprints(ankle_m, foot_turned, toe_rad)
+        ball = vector.add(ankle_m[side], quaternion.rotate(foot_turned[side], toe))
+        turned = quaternion.multiply(foot_turned[side], quaternion.about_y(rise_rad[side]))
+        ankle = vector.subtract(ball, quaternion.rotate(turned, toe))
+        foot_turned[side, 0], foot_turned[side, 1], foot_turned[side, 2], foot_turned[side, 3] = turned
+        ankle_m[side, 0], ankle_m[side, 1], ankle_m[side, 2] = ankle
+    return ankle_m, foot_turned, toe_rad + rise_rad
 
 
 def middle_m(body, feet: Footprints, balance_x: float = 0.0, balance_z: float = 0.0) -> np.ndarray:
     """The place (2,) of the ground that a balance asks for. 0, 0: the middle of the stance.
 
     balance_x (the paper's X): +1 over the left foot, -1 over the right one. balance_z (the paper's Z): +1 as far ahead as
-    the foot is long from its middle, -1 as far back. Nothing forbids to go past the edge: precarious balance is wanted.
+    half the foot is long, -1 as far back. Nothing forbids to go past the edge: precarious balance is wanted.
     """
-    sides = np.array([_middle_of_foot(body, feet, side, balance_z) for side in range(2)])
-    weight = 0.5 * (1.0 + balance_x)
-    return weight * sides[0] + (1.0 - weight) * sides[1]
+    return _middle(body, *feet, float(balance_x), float(balance_z))
 
 
-def _middle_of_foot(body, feet, side, balance_z):
-    """(2,) the place of one foot over which a balance of 0, moved ahead by balance_z half feet, stands."""
+@njit(cache=True)
+def _middle(body, ankle_m, foot_turned, toe_rad, balance_x, balance_z):
+    place = np.zeros(2)
+    for side in range(2):
+        x, y = _middle_of_foot(body, side, ankle_m[side], foot_turned[side], toe_rad[side], balance_z)
+        weight = 0.5 + (0.5 - side) * balance_x
+        place[0] += weight * x
+        place[1] += weight * y
+    return place
+
+
+@njit(cache=True)
+def _middle_of_foot(body, side, ankle_m, foot_turned, toe_rad, balance_z):
+    """The place (x, y) of one foot over which a balance of 0, moved ahead by balance_z half feet, stands."""
     toe, sole = body.offset_m[TOES[side]], body.sole_m[side]
     heel, tip = sole[0, 0], toe[0] + sole[4, 0]
     flat = heel + MIDDLE_OF_FOOT * (tip - heel)
-    t = min(max(feet.toe_rad[side] / FULL_RISE_RAD, 0.0), 1.0)
+    t = min(max(toe_rad / FULL_RISE_RAD, 0.0), 1.0)
     on_toes = toe[0] + 0.3 * sole[4, 0]
     ahead = flat + t * t * (3.0 - 2.0 * t) * (on_toes - flat) + balance_z * 0.5 * (tip - heel)
     # measured from the ball, which is where it is whether the heel is up or down
-    ball = vector.add(feet.ankle_m[side], quaternion.rotate(feet.foot_turned[side], toe))
-    facing = quaternion.about_z(quaternion.heading(feet.foot_turned[side]))
-    return np.array(vector.add(ball, quaternion.rotate(facing, (ahead - toe[0], -toe[1], 0.0)))[:2])
+    ball = vector.add(ankle_m, quaternion.rotate(foot_turned, toe))
+    facing = quaternion.about_z(quaternion.heading(foot_turned))
+    place = vector.add(ball, quaternion.rotate(facing, (ahead - toe[0], -toe[1], 0.0)))
+    return place[0], place[1]

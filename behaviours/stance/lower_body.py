@@ -26,7 +26,7 @@ LEAST_KNEE_RAD = 0.02
 
 
 class LowerBody(NamedTuple):
-    """What is asked of the lower body."""
+    """What is asked of the lower body, and what follows from that alone; see `ask`."""
 
     ankle_m: np.ndarray  # (2, 3) world
     foot_turned: np.ndarray  # (2, 4) world orientation of each foot
@@ -35,6 +35,29 @@ class LowerBody(NamedTuple):
     knee_rad: np.ndarray  # (2,) wanted flexion
     pelvis_rad: np.ndarray  # (3,) the paper's X, Y, Z; Y from the line through the ankle centres
     pelvis_exact: bool  # the other trade-off: the pelvis exact, the free knee gives
+    facing: np.ndarray  # (4,) orientation of the stance: square to the line through the ankle centres
+    leg_m: np.ndarray  # (2,) from ankle to hip with the knees as wanted, or as straight as they go where they give
+    hip_vector: np.ndarray  # (3,) world unit vector from root hip to free hip as the pelvis's Y and Z ask for it
+    hip_width_m: float
+
+
+@njit(cache=True)
+def ask(body, ankle_m, foot_turned, toe_rad, root, knee_rad, pelvis_rad, pelvis_exact):
+    """A LowerBody from its first seven fields."""
+    facing = quaternion.about_z(facing_rad(ankle_m, foot_turned, root))
+    leg_m = np.empty(2)
+    for side in range(2):
+        knee = LEAST_KNEE_RAD if pelvis_exact and side != root else max(knee_rad[side], LEAST_KNEE_RAD)
+        leg_m[side] = leg_length(_bone(body, KNEES[side]), _bone(body, ANKLES[side]), knee)
+    width = vector.subtract(body.offset_m[HIPS[1 - root]], body.offset_m[HIPS[root]])
+    width_m = vector.length(width)
+    turned = quaternion.multiply(facing, quaternion.about_z(pelvis_rad[1]))
+    turned = quaternion.multiply(turned, quaternion.about_x(pelvis_rad[2]))
+    hip_vector = vector.scale(quaternion.rotate(turned, width), 1.0 / width_m)
+    return LowerBody(
+        ankle_m, foot_turned, toe_rad, root, knee_rad, pelvis_rad, pelvis_exact,
+        np.array(facing), leg_m, np.array(hip_vector), width_m,
+    )  # fmt: skip
 
 
 @njit(cache=True)
@@ -72,26 +95,16 @@ def free_hip(root_hip, free_ankle, hip_vector, width_m, leg_m):
 
 
 @njit(cache=True)
-def hips_of(body, ask, balance_rad):
+def hips_of(asked, balance_rad):
     """Where both hips go: (left, right), world. balance_rad: the root ankle's offsets about the paper's X and Z."""
-    root, free = ask.root, 1 - ask.root
-    facing = quaternion.about_z(facing_rad(ask.ankle_m, ask.foot_turned, root))
-    length = leg_length(_bone(body, KNEES[root]), _bone(body, ANKLES[root]), max(ask.knee_rad[root], LEAST_KNEE_RAD))
-    leaning = quaternion.multiply(facing, frame.rotation(balance_rad[0], 0.0, balance_rad[1]))
-    root_hip = vector.along(ask.ankle_m[root], quaternion.rotate(leaning, (0.0, 0.0, 1.0)), length)
-    width = vector.subtract(body.offset_m[HIPS[free]], body.offset_m[HIPS[root]])
-    width_m = vector.length(width)
-    turned = quaternion.multiply(facing, quaternion.about_z(ask.pelvis_rad[1]))
-    turned = quaternion.multiply(turned, quaternion.about_x(ask.pelvis_rad[2]))
-    hip_vector = vector.scale(quaternion.rotate(turned, width), 1.0 / width_m)
-    thigh, shin = _bone(body, KNEES[free]), _bone(body, ANKLES[free])
-    knee = max(ask.knee_rad[free], LEAST_KNEE_RAD)
-    other = vector.along(root_hip, hip_vector, width_m)
-    if ask.pelvis_exact:
-        # the knee gives, until the leg is straight; from there on the pelvis has to
-        knee = LEAST_KNEE_RAD
-    if not ask.pelvis_exact or vector.distance(other, ask.ankle_m[free]) > leg_length(thigh, shin, knee):
-        other = free_hip(root_hip, ask.ankle_m[free], hip_vector, width_m, leg_length(thigh, shin, knee))
+    root, free = asked.root, 1 - asked.root
+    leaning = quaternion.multiply(asked.facing, frame.rotation(balance_rad[0], 0.0, balance_rad[1]))
+    up = quaternion.rotate(leaning, (0.0, 0.0, 1.0))
+    root_hip = vector.along(asked.ankle_m[root], up, asked.leg_m[root])
+    other = vector.along(root_hip, asked.hip_vector, asked.hip_width_m)
+    # with the pelvis exact the free knee gives, until the leg is straight; from there on the pelvis has to
+    if not asked.pelvis_exact or vector.distance(other, asked.ankle_m[free]) > asked.leg_m[free]:
+        other = free_hip(root_hip, asked.ankle_m[free], asked.hip_vector, asked.hip_width_m, asked.leg_m[free])
     if root == 0:
         return root_hip, other
     return other, root_hip
@@ -150,22 +163,22 @@ def _about_y(cosine):
 
 
 @njit(cache=True)
-def place_pelvis(body, ask, balance_rad):
+def place_pelvis(body, asked, balance_rad):
     """Where the pelvis is for what is asked (LowerBody): its place (3,), its orientation, both hips (left, right); world."""
-    left, right = hips_of(body, ask, balance_rad)
-    pelvis = pelvis_turned(body, left, right, ask.pelvis_rad[0])
+    left, right = hips_of(asked, balance_rad)
+    pelvis = pelvis_turned(body, left, right, asked.pelvis_rad[0])
     return vector.subtract(left, quaternion.rotate(pelvis, body.offset_m[HIPS[0]])), pelvis, left, right
 
 
 @njit(cache=True)
-def solve_lower_body(body, ask, balance_rad, root_m, rotations):
+def solve_lower_body(body, asked, balance_rad, root_m, rotations):
     """Writes the pelvis (root_m (3,), rotations row) and both legs (rotations (J, 4)) for what is asked (LowerBody)."""
-    place, pelvis, left, right = place_pelvis(body, ask, balance_rad)
+    place, pelvis, left, right = place_pelvis(body, asked, balance_rad)
     root_m[0], root_m[1], root_m[2] = place
     _put(rotations, PELVIS, pelvis)
     for side in range(2):
         hip = left if side == 0 else right
-        fit_leg(body, side, pelvis, hip, ask.ankle_m[side], ask.foot_turned[side], ask.toe_rad[side], rotations)
+        fit_leg(body, side, pelvis, hip, asked.ankle_m[side], asked.foot_turned[side], asked.toe_rad[side], rotations)
 
 
 @njit(cache=True)

@@ -7,21 +7,19 @@ from typing import NamedTuple
 
 import numpy as np
 
-from behaviours.stance import arms, balance, footprints, gaze, lower_body, penalty, shape_sets, solver, torso
+from behaviours.stance import arms, balance, footprints, lower_body, penalty, shape_sets, solver, torso
 from behaviours.stance.around import look_around
-from behaviours.stance.assembly import Figure, Plan, new_figure
+from behaviours.stance.assembly import Plan, new_figure
 from behaviours.stance.footprints import Footprints
-from behaviours.stance.lower_body import LowerBody
 from behaviours.stance.penalty import Side
 from behaviours.stance.shape import HEAVIER, LEFT_FOOT, Shape
 from engine.body import kinematics, limits
 from engine.body.skeleton import ANKLES, HIPS, KNEES, TOES, Body, Pose
 from engine.core.errors import BadInput
-from engine.maths import quaternion
 
 # a neutral knee is not locked
 NEUTRAL_KNEE_RAD = np.radians(4.0)
-LEGS = (*HIPS, *KNEES, *ANKLES, *TOES)
+LEGS = np.array([*HIPS, *KNEES, *ANKLES, *TOES])
 ROUNDING_RAD = 1e-9
 MOST_EASINGS = 4
 
@@ -36,26 +34,21 @@ class Place(NamedTuple):
 
 
 class StanceResult(NamedTuple):
-    """A solved stance. World frame, metres, radians; sides left, right."""
+    """A solved stance. World frame, metres, radians; sides left, right. What it is worth: `measures`."""
 
     pose: Pose
     joints_m: np.ndarray  # (J, 3)
     orientations: np.ndarray  # (J, 4)
     shape: Shape  # as it was asked for
-    amplitudes: dict[str, float]  # the solver's unknowns as they came out
-    penalties: dict[str, float]  # weighted terms of eq. 5
+    unknowns: np.ndarray  # (6,) amplitudes as they came out, in the order of torso.UNKNOWNS
+    wishes: solver.Wishes
     outcome: solver.Outcome
     plan: Plan  # what was assembled
     balance_rad: np.ndarray  # (2,) the root ankle's offsets, the paper's X and Z
     feet: Footprints
     com_m: np.ndarray  # (3,)
-    com_wanted_m: np.ndarray  # (2,)
     wrist_error_m: np.ndarray  # (2,) 0 without a target
     swivel_rad: np.ndarray  # (2,) taken
-    foot_error_m: np.ndarray  # (2,)
-    foot_error_rad: np.ndarray  # (2,)
-    gaze_error_rad: float  # nan when it looks at nothing
-    limit_excess_rad: float
     kept: float  # share of the lower body's wishes that the legs' limits left, 1 when all
     milliseconds: float
 
@@ -110,26 +103,20 @@ def solve_shape(
     wishes = wishes_of(body, wanted, places)
     kept, unknowns, search, figure, outcome, wrists = _solve_within_limits(body, plan, wishes)
     plan = _eased(body, plan, kept)
-    com_m = _com_of(body, figure)
     return StanceResult(
         pose=Pose(figure.root_m, figure.rotations),
         joints_m=figure.positions,
         orientations=figure.orientations,
         shape=wanted,
-        amplitudes=dict(zip(torso.UNKNOWNS, unknowns.tolist(), strict=True)),
-        penalties=_penalties(plan, wishes, outcome, unknowns, figure),
+        unknowns=unknowns,
+        wishes=wishes,
         outcome=outcome,
         plan=plan,
         balance_rad=search.offset_rad,
         feet=feet,
-        com_m=com_m,
-        com_wanted_m=plan.balance_m,
+        com_m=np.array(kinematics.centre_of_mass(body, figure.positions, figure.orientations)),
         wrist_error_m=wrists[solver.MISS],
         swivel_rad=wrists[solver.SWIVEL],
-        foot_error_m=np.linalg.norm(figure.positions[list(ANKLES)] - feet.ankle_m, axis=1),
-        foot_error_rad=_foot_turns(figure, feet),
-        gaze_error_rad=_gaze_error(body, plan, figure),
-        limit_excess_rad=float(limits.excess_rad(body, figure.rotations)[1:].max()),
         kept=kept,
         milliseconds=1000.0 * (time.perf_counter() - started),
     )
@@ -145,15 +132,12 @@ def plan_of(body: Body, wanted: Shape, feet: Footprints, reach_m=(None, None), l
         root = 0 if dominant == LEFT_FOOT else 1
     if balance_m is None:
         balance_m = footprints.middle_m(body, feet, n.balance_x, n.balance_z)
-    lower = LowerBody(
-        ankle_m=feet.ankle_m,
-        foot_turned=feet.foot_turned,
-        toe_rad=feet.toe_rad,
-        root=root,
-        knee_rad=NEUTRAL_KNEE_RAD + np.array([n.knee_left_rad, n.knee_right_rad]),
-        pelvis_rad=np.array([n.pelvis_x_rad, n.pelvis_y_rad, n.pelvis_z_rad]),
-        pelvis_exact=states.trade_off == lower_body.PELVIS_EXACT,
-    )
+    lower = lower_body.ask(
+        body, feet.ankle_m, feet.foot_turned, feet.toe_rad, root,
+        NEUTRAL_KNEE_RAD + np.array([n.knee_left_rad, n.knee_right_rad]),
+        np.array([n.pelvis_x_rad, n.pelvis_y_rad, n.pelvis_z_rad]),
+        states.trade_off == lower_body.PELVIS_EXACT,
+    )  # fmt: skip
     reaching = np.array([p is not None for p in reach_m])
     return Plan(
         lower=lower,
@@ -178,9 +162,7 @@ def plan_of(body: Body, wanted: Shape, feet: Footprints, reach_m=(None, None), l
 def wishes_of(body: Body, wanted: Shape, places: tuple[Place, ...] = ()) -> solver.Wishes:
     """The terms of eq. 5 for a shape."""
     numbers = unknowns_of(wanted)
-    rows = np.empty((len(numbers), penalty.ROW))
-    for u, wish in enumerate(wanted.wishes):
-        rows[u] = (numbers[u], *wish.low, *wish.high)
+    rows = np.array([(number, *wish.low, *wish.high) for number, wish in zip(numbers, wanted.wishes, strict=True)])
     free = np.ones(len(numbers), bool)
     free[torso.ABDOMEN_X] = wanted.states.solve_abdomen
     n = len(places)
@@ -228,7 +210,7 @@ def _share_allowed(body, plan, unknowns, refused):
     for _ in range(10):
         middle = 0.5 * (allowed + refused)
         eased = _eased(body, plan, middle)
-        balance.find_balance(body, eased, unknowns, balance.new_search(body, eased.lower), figure)
+        balance.find_balance(body, eased, unknowns, balance.new_search(eased.lower), figure)
         if _leg_excess_rad(body, figure) > 0.0:
             refused = middle
         else:
@@ -237,55 +219,26 @@ def _share_allowed(body, plan, unknowns, refused):
 
 
 def _solve(body, plan, wishes):
-    unknowns, search, figure = wishes.wanted[:, penalty.WANTED].copy(), balance.new_search(body, plan.lower), new_figure()
+    unknowns, search, figure = wishes.wanted[:, penalty.WANTED].copy(), balance.new_search(plan.lower), new_figure()
     wrists = np.zeros((3, 2))
     plan = plan._replace(arm=plan.arm.copy())  # the solver may change the swivels
     outcome = solver.solve_torso(body, plan, wishes, unknowns, search, figure, wrists)
     return unknowns, search, figure, outcome, wrists
 
 
-def _eased(body, plan, share):
+def _eased(body, plan, share) -> Plan:
     """The plan with only a share of what it asks of pelvis, knees and balance."""
     if share == 1.0:
         return plan
     lower = plan.lower
     middle = footprints.middle_m(body, Footprints(lower.ankle_m, lower.foot_turned, lower.toe_rad))
-    lower = lower._replace(
-        knee_rad=NEUTRAL_KNEE_RAD + share * (lower.knee_rad - NEUTRAL_KNEE_RAD), pelvis_rad=share * lower.pelvis_rad
-    )
+    knees = NEUTRAL_KNEE_RAD + share * (lower.knee_rad - NEUTRAL_KNEE_RAD)
+    lower = lower_body.ask(body, *lower[:4], knees, share * lower.pelvis_rad, lower.pelvis_exact)
     return plan._replace(lower=lower, balance_m=middle + share * (plan.balance_m - middle))
 
 
 def _leg_excess_rad(body, figure):
-    return limits.excess_rad(body, figure.rotations)[list(LEGS)].max()
-
-
-def _penalties(plan, wishes, outcome, unknowns, figure):
-    terms = {
-        name: float(wishes.weight[u] * penalty.penalty_of(wishes.wanted[u], unknowns[u]))
-        for u, name in enumerate(torso.UNKNOWNS)
-    }
-    for side, name in enumerate(("reach_left", "reach_right")):
-        if plan.reaching[side]:
-            away = solver.reach_distance_m(plan, figure, side)
-            terms[name] = float(outcome.reach_weight * penalty.penalty_of(wishes.reach[side], away))
-    return terms
-
-
-def _foot_turns(figure, feet):
-    return np.array(
-        [quaternion.angle_between(figure.orientations[ANKLES[side]], feet.foot_turned[side]) for side in range(2)]
-    )
-
-
-def _gaze_error(body, plan, figure):
-    if plan.gaze == 0.0:
-        return float("nan")
-    return gaze.gaze_error_rad(body, figure.positions, figure.orientations, plan.look_at_m)
-
-
-def _com_of(body, figure: Figure):
-    return np.array(kinematics.centre_of_mass(body, figure.positions, figure.orientations))
+    return limits.excess_rad(body, figure.rotations)[LEGS].max()
 
 
 def _point(value, name):

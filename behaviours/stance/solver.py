@@ -146,9 +146,9 @@ def minimise_cycles(body, plan, wishes, pull, unknowns, bounds, search, figure):
 
 
 @njit(cache=True)
-def reach_distance_m(plan, figure, side):
+def reach_distance_m(plan, positions, side):
     """From a shoulder to its wrist's target."""
-    return vector.distance(figure.positions[SHOULDERS[side]], plan.wrist_m[side])
+    return vector.distance(positions[SHOULDERS[side]], plan.wrist_m[side])
 
 
 @njit(cache=True)
@@ -157,7 +157,7 @@ def out_of_reach_m(body, plan, figure):
     worst = 0.0
     for side in range(2):
         if plan.reaching[side]:
-            worst = max(worst, reach_distance_m(plan, figure, side) - arms.arm_length_m(body, side))
+            worst = max(worst, reach_distance_m(plan, figure.positions, side) - arms.arm_length_m(body, side))
     return worst
 
 
