@@ -34,7 +34,13 @@ def sole_points(body, positions, orientations):
 @njit(cache=True)
 def bearing(points):
     """(6,) of one foot's sole points (6, 3): which bear when the foot is planted."""
-    return points[:, 2] <= points[:, 2].min() + CONTACT_M
+    lowest = math.inf
+    for k in range(len(points)):
+        lowest = min(lowest, points[k, 2])
+    out = np.empty(len(points), np.bool_)
+    for k in range(len(points)):
+        out[k] = points[k, 2] <= lowest + CONTACT_M
+    return out
 
 
 @njit(cache=True)
@@ -56,7 +62,7 @@ def polygon_of(body, positions, orientations, planted):
 @njit(cache=True)
 def _sorted_by_x(points):
     """Rows by X, then Y, equal ones once."""
-    rows = points.copy()
+    rows = np.empty((len(points), 2))
     count = 0
     for p in range(len(points)):
         x, y = points[p, 0], points[p, 1]
@@ -79,26 +85,29 @@ def _turn(a, b, c):
 
 
 @njit(cache=True)
+def _extend(chain, first, m, point):
+    """Adds a point to the chain, dropping those since `first` that would no longer be corners. Returns its new length."""
+    while m >= first + 2 and _turn(chain[m - 2], chain[m - 1], point) <= 0.0:
+        m -= 1
+    chain[m, 0], chain[m, 1] = point[0], point[1]
+    return m + 1
+
+
+@njit(cache=True)
 def hull(points):
     """The convex hull (m, 2) of points (n, 2), counter-clockwise, no point twice, none on an edge (Andrew 1979)."""
     rows = _sorted_by_x(points)
     n = len(rows)
     if n < 3:
-        return rows.copy()
+        return rows
     chain = np.empty((2 * n, 2))
     m = 0
     for k in range(n):  # the lower edge, left to right
-        while m >= 2 and _turn(chain[m - 2], chain[m - 1], rows[k]) <= 0.0:
-            m -= 1
-        chain[m] = rows[k]
-        m += 1
-    lower = m + 1
+        m = _extend(chain, 0, m, rows[k])
+    first = m - 1
     for k in range(n - 2, -1, -1):  # and the upper one back
-        while m >= lower and _turn(chain[m - 2], chain[m - 1], rows[k]) <= 0.0:
-            m -= 1
-        chain[m] = rows[k]
-        m += 1
-    return chain[: m - 1].copy()
+        m = _extend(chain, first, m, rows[k])
+    return chain[: m - 1]
 
 
 @njit(cache=True)
