@@ -41,7 +41,9 @@ class CameraHands:
             self.camera = cam.follow(self.camera, point_m, passed_s)
 
     def frame(self, points_m, size_px) -> None:
-        """Brings all points (N, 3) into the picture."""
+        """Brings all points (N, 3) into the picture; waits while there is none (minimised)."""
+        if min(size_px) <= 0:
+            return
         self.camera = cam.frame_all(self.camera, points_m, size_px)
         self.centred = False
 

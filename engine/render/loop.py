@@ -51,8 +51,8 @@ def run_loop(
     hands = hands or CameraHands(centred=True)
     last_s, drawn = clock(), 0
     while not context.closing and (frames is None or drawn < frames):
-        size_px = context.size_px
-        events = hands.take(context.poll(), size_px)
+        happened, size_px = context.poll(), context.size_px
+        events = hands.take(happened, size_px)
         now_s = clock()
         passed_s, last_s = now_s - last_s, now_s
         show.handle(events, hands.camera, size_px)

@@ -33,7 +33,6 @@ class Window:
     def __init__(self, size: tuple[int, int], title: str):
         self._handle = _open(size, title)
         self._waiting: list[ev.Event] = []
-        self._cursor_px = (0.0, 0.0)
         self._last_press: tuple[float, int, float, float] = (-1.0, -1, 0.0, 0.0)
         try:
             glfw.make_context_current(self._handle)
@@ -42,6 +41,7 @@ class Window:
             glfw.terminate()
             raise
         glfw.swap_interval(1)
+        self._cursor_px = self._in_pixels(*glfw.get_cursor_pos(self._handle))
         self._listen()
 
     @property
@@ -120,9 +120,7 @@ class Window:
         self._cursor_px = place
 
     def _on_button(self, _, button: int, action: int, modifiers: int) -> None:
-        # the cursor may have moved before the first move event was seen
-        self._cursor_px = self._in_pixels(*glfw.get_cursor_pos(self._handle))
-        x, y = self._cursor_px
+        x, y = self._cursor_px  # where it was then: asked now, glfw would tell where it is by now
         clicks = self._clicks(button, x, y) if action == glfw.PRESS else 1
         self._waiting_push(ev.MouseButton(button, action == glfw.PRESS, x, y, modifiers & _MODIFIERS, clicks))
 

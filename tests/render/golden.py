@@ -56,7 +56,7 @@ def assert_golden(name: str, drawn: np.ndarray, references: Path = REFERENCES, r
     actual = rejected / f"{name}.png"
     if not reference.exists():
         _keep(actual, drawn)
-        raise AssertionError(f"no reference {reference}; look at {actual}, then make it: BRACE_GOLDEN=write")
+        raise AssertionError(f"no reference {reference}; look at {actual}, then BRACE_GOLDEN=write")
     with Image.open(reference) as picture:
         wanted = np.asarray(picture.convert("RGB"))
     assert wanted.shape == drawn.shape, f"{name}: drawn {drawn.shape}, reference {wanted.shape}"
@@ -68,13 +68,13 @@ def assert_golden(name: str, drawn: np.ndarray, references: Path = REFERENCES, r
     _keep(rejected / f"{name}.difference.png", np.minimum(4 * difference, 255).astype("u1"))
     y, x = TILE_PX * np.array(np.unravel_index(tiles.argmax(), tiles.shape))
     raise AssertionError(
-        f"{name}: {np.count_nonzero(tiles > TOLERANCE)} regions differ, most at x {x}, y {y} (mean {tiles.max():.1f} of 255, "
-        f"allowed {TOLERANCE}); compare {actual} with {reference}"
+        f"{name}: {np.count_nonzero(tiles > TOLERANCE)} regions differ, most at x {x}, y {y} (mean {tiles.max():.1f} "
+        f"of 255, allowed {TOLERANCE}); compare {actual} with {reference}"
     )
 
 
 def tile_differences(wanted: np.ndarray, drawn: np.ndarray) -> np.ndarray:
-    """(H / 16, W / 16): the mean difference in each tile, of the channel that differs most; last tiles may be smaller."""
+    """(H / 16, W / 16): the mean difference in each tile, of the channel that differs most; the last may be smaller."""
     difference = np.abs(wanted.astype(float) - drawn.astype(float))
     rows = np.arange(0, difference.shape[0], TILE_PX)
     columns = np.arange(0, difference.shape[1], TILE_PX)

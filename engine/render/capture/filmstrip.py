@@ -36,7 +36,7 @@ def compose_filmstrip(
     columns = min(columns or len(pictures), len(pictures))
     rows = -(-len(pictures) // columns)
     height, width = pictures[0].shape[:2]
-    font_px = int(np.clip(round(height / 20), 11, 22))
+    font_px = int(np.clip(round(height / 17), 11, 26))
     gap, margin, line = max(6, height // 40), max(14, height // 18), round(1.4 * font_px)
     lines = max((caption.count("\n") + 1 for caption in captions if caption), default=0)
     pitch = (width + gap, height + gap + (line * lines + gap if lines else 0))

@@ -103,6 +103,7 @@ def _encode(ffmpeg: str, part: Path, frames, fps: float, where: str, progress) -
             count = _feed(process, itertools.chain((first,), checked), progress)
         except BaseException:
             process.kill()
+            _hang_up(process)
             process.wait()
             raise
         code = process.wait()
@@ -125,10 +126,16 @@ def _feed(process: subprocess.Popen, frames: Iterable[np.ndarray], progress) -> 
                 progress(count)
         pipe.close()
     except BrokenPipeError:
-        with contextlib.suppress(BrokenPipeError):
-            pipe.close()
+        _hang_up(process)
         return None
     return count
+
+
+def _hang_up(process: subprocess.Popen) -> None:
+    """Closes the pipe to a process that may be gone."""
+    with contextlib.suppress(BrokenPipeError):
+        if process.stdin:
+            process.stdin.close()
 
 
 def _start(ffmpeg: str, part: Path, shape, fps: float, complaints) -> subprocess.Popen:
