@@ -9,6 +9,7 @@ from typing import NamedTuple
 import numpy as np
 
 from behaviours.components import Character, Phase, Reaction
+from behaviours.scenario import Scenario
 from demos.stage import pelvis_m, scene_of
 from engine.core.clock import TICK_RATE_HZ
 from engine.core.errors import BadInput
@@ -17,14 +18,14 @@ from engine.render.context import make_context
 from engine.render.renderer import Renderer
 from engine.render.scene import Scene
 
-# where the camera stands about the character: azimuth from the way it faced at first, elevation, distance
+# where the camera stands about the character: azimuth from the way it faces at first, elevation, distance
 CAMERAS = {
-    "quarter": (-55.0, 9.0, 5.0),
-    "front": (0.0, 8.0, 5.0),
-    "left": (90.0, 8.0, 5.0),
-    "right": (-90.0, 8.0, 5.0),
-    "back": (180.0, 8.0, 5.0),
-    "above": (-90.0, 80.0, 6.0),
+    "quarter": (55.0, 9.0, 4.4),  # on the side that the first threat does not come from
+    "front": (0.0, 8.0, 4.4),
+    "left": (90.0, 8.0, 4.4),
+    "right": (-90.0, 8.0, 4.4),
+    "back": (180.0, 8.0, 4.4),
+    "above": (-90.0, 80.0, 5.5),
 }
 LOOK_AT_M = 0.95  # height of what the camera looks at
 FOLLOW_HALF_LIFE_S = 0.12
@@ -61,6 +62,14 @@ def moments(world, advance: Callable[[], None], ticks: int, shot: Shot) -> Itera
 def frame_count(ticks: int, shot: Shot) -> int:
     """How many pictures a run of that many ticks gives."""
     return math.floor(ticks * shot.fps / TICK_RATE_HZ + 1e-9) + 1
+
+
+def placed_for(shot: Shot, scenario: Scenario) -> Shot:
+    """The shot with its camera turned as the first character faces, and a quarter view put out of the threat's way."""
+    azimuth, elevation, distance = shot.camera
+    if shot.camera == CAMERAS["quarter"] and scenario.threat and scenario.threat[0].azimuth_deg > 0.0:
+        azimuth = -azimuth
+    return shot._replace(camera=(azimuth + scenario.character[0].heading_deg, elevation, distance))
 
 
 def moment(world, alpha: float, ghosts: Collection[str]) -> Moment:
@@ -101,8 +110,12 @@ def choose(seen: Sequence[Moment], count: int, from_s: float | None, to_s: float
     inside = [now for now in seen if first <= now.time_s <= last]
     if not inside:
         raise BadInput("usage", f"nothing lies from {first:g} to {last:g} s; the scenario lasts {seen[-1].time_s:g} s")
-    picks = np.linspace(0, len(inside) - 1, min(count, len(inside)))
-    return [inside[round(float(pick))] for pick in picks]
+    picks = [round(float(pick)) for pick in np.linspace(0, len(inside) - 1, min(count, len(inside)))]
+    contact = next((i for i, now in enumerate(inside) if now.phase == "respond"), None)
+    if contact is not None and len(picks) > 2:  # the blow itself is what one looks for
+        nearest = min(range(1, len(picks) - 1), key=lambda k: abs(picks[k] - contact))
+        picks[nearest] = contact
+    return [inside[pick] for pick in picks]
 
 
 def parse_size(text: str) -> tuple[int, int]:

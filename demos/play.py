@@ -222,5 +222,5 @@ def _free_name(folder: Path, stem: str, ending: str) -> Path:
 
 def play_of(simulation: Simulation, journal, picture: Callable[[], np.ndarray], folder: Path) -> Play:
     """A Play whose every tick and throw is recorded and can be gone back to."""
-    timeline = Timeline(simulation.world, simulation.schedule.tick, apply_command, journal)
+    timeline = Timeline(simulation.world, simulation.step, apply_command, journal)
     return Play(simulation, timeline, picture, folder)

@@ -8,7 +8,7 @@ from demos.commands.arguments import add_filming, add_scenario, shot_of
 from demos.output import say
 
 STRIP_FRAMES = 8
-STRIP_SIZE = "480x540"
+STRIP_SIZE = "400x540"
 
 
 def register(subparsers) -> None:
@@ -29,6 +29,7 @@ def register(subparsers) -> None:
 
 
 def run(args: argparse.Namespace) -> None:
+    from demos.filming import placed_for
     from demos.running import open_scenario, start
     from engine.render.capture import capture_kind
 
@@ -36,6 +37,7 @@ def run(args: argparse.Namespace) -> None:
     shot = shot_of(args)
     kind = capture_kind(args.output)
     simulation = start(*open_scenario(args.scenario, args.set))
+    shot = placed_for(shot, simulation.scenario)
     if kind == "png":
         write_strip(args.output, simulation, shot, args.frames, args.columns, args.from_s, args.to_s)
     else:

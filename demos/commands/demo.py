@@ -10,7 +10,7 @@ from demos.commands.arguments import add_filming, add_scenario, shot_of
 from engine.core.errors import EnvironmentTrouble
 
 OFFLINE_SCENARIO = "sway"
-STRIP_SIZE = (480, 540)
+STRIP_SIZE = (400, 540)
 
 
 def register(subparsers) -> None:
@@ -51,6 +51,7 @@ def _simulation(args: argparse.Namespace):
 
 
 def _window(args: argparse.Namespace) -> None:
+    from demos.filming import placed_for
     from demos.play import play_of
     from demos.running import journal_of
     from engine.render.camera import orbit_camera
@@ -59,8 +60,8 @@ def _window(args: argparse.Namespace) -> None:
     from engine.render.loop import run_loop
     from engine.render.renderer import Renderer
 
-    shot = shot_of(args)
     simulation, folder = _simulation(args)
+    shot = placed_for(shot_of(args), simulation.scenario)
     with make_context(headless=False, size=shot.size_px, title=f"Brace: {args.scenario}") as context:
         renderer = Renderer(context)
         show = play_of(simulation, journal_of(simulation, folder), renderer.read_rgb, Path.cwd())
@@ -71,10 +72,12 @@ def _window(args: argparse.Namespace) -> None:
 
 def _pictures(args: argparse.Namespace) -> None:
     from demos.commands.capture import write_film, write_strip
+    from demos.filming import placed_for
     from engine.render.capture import capture_kind
 
     shot = shot_of(args)
     simulation, _ = _simulation(args)
+    shot = placed_for(shot, simulation.scenario)
     stem = _picture_folder(args.output) / Path(args.scenario).stem
     strip, film = stem.with_suffix(".png"), stem.with_suffix(".mp4" if _has_ffmpeg() else ".gif")
     capture_kind(strip)

@@ -8,6 +8,8 @@ from typing import Any
 from demos.commands.arguments import add_scenario
 from demos.output import check_writable, print_json, say
 
+UNSAID = ("t_s", "kind", "entity", "at", "ball", "threat")  # said already, or handles that mean nothing to people
+
 
 def register(subparsers) -> None:
     parser = subparsers.add_parser(
@@ -48,7 +50,7 @@ def report_lines(report: dict[str, Any]) -> list[str]:
     """The same report for people: what happened when, the phases, the measures."""
     lines = ["events"]
     for event in report["events"]:
-        rest = ", ".join(f"{key} {_short(value)}" for key, value in event.items() if key not in ("t_s", "kind"))
+        rest = ", ".join(f"{key} {_short(value)}" for key, value in event.items() if key not in UNSAID)
         lines.append(f"  {event['t_s']:7.3f} s  {event['kind']:<12} {rest}".rstrip())
     lines.append("phases")
     lines += [f"  {phase['from_s']:7.3f} - {phase['to_s']:7.3f} s  {phase['name']}" for phase in report["phases"]]

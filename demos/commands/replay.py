@@ -37,7 +37,9 @@ def run(args: argparse.Namespace) -> None:
     simulation, recorder = replayed(journal, args.file)
     if args.output:
         from demos.commands.capture import write_film
+        from demos.filming import placed_for
 
+        shot = placed_for(shot, simulation.scenario)
         write_film(args.output, simulation.world, recorder.advance, ticks, shot)
         say(f"wrote {args.output}")
         return
