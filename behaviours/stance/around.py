@@ -31,6 +31,16 @@ class Around(NamedTuple):
         return math.sin(self.azimuth_rad)
 
     @property
+    def turn(self) -> float:
+        """How far to turn towards the object: 1 to the left, and no less for what is behind (a switch straight behind)."""
+        return math.copysign(math.sin(min(abs(self.azimuth_rad), 0.5 * math.pi)), self.azimuth_rad)
+
+    @property
+    def bow(self) -> float:
+        """How far to bow towards the object: 1 ahead, hardly at all backwards."""
+        return self.ahead if self.ahead > 0.0 else 0.2 * self.ahead
+
+    @property
     def side(self) -> float:
         """A switch: +1 for an object on the left or straight ahead, -1 for one on the right.
 

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import math
+
 from numba import njit
 
 from engine.body import limits
@@ -12,6 +14,7 @@ from engine.maths import quaternion, vector
 NECK_SHARE = 0.7
 # the eyes, as shares of the height of the crown over the head's joint: ahead and up
 EYES = (0.6, 0.0, 0.45)
+STEEP = 0.35  # a direction whose level part is shorter than this loses its yaw bit by bit
 
 
 @njit(cache=True)
@@ -34,22 +37,37 @@ def gaze_error_rad(body, positions, orientations, target_m):
 def look(body, rotations, positions, orientations, target_m, weight):
     """Turns neck and head towards a target (3,), in place: rotations (J, 4), positions (J, 3), orientations (J, 4) of one pose.
 
-    The turn is the least one, so the head keeps its own tilt; the neck takes its share, the head the rest, both inside
-    their limits; then once more for what moving the eyes has changed.
+    Seen from the chest the face turns sideways, then up or down, as people do; a turn by the shortest way would tilt the head.
+    The neck takes its share, the head the rest from where that has brought it, both inside their limits.
     """
-    face = quaternion.rotate(orientations[HEAD], (1.0, 0.0, 0.0))
-    rest_m = eyes_m(body, positions, orientations)
-    line = vector.unit(vector.subtract(target_m, rest_m), face)
-    turn = quaternion.to_rotation_vector(quaternion.between(face, line))
-    part = weight * NECK_SHARE
-    _turn(body, rotations, orientations, NECK, BACK, quaternion.from_rotation_vector(vector.scale(turn, part)))
-    _place(body, rotations, positions, orientations, HEAD, NECK)
-    # where the face is to point: from rest towards the target by the weight
-    line = vector.unit(vector.subtract(target_m, eyes_m(body, positions, orientations)), face)
-    turn = quaternion.to_rotation_vector(quaternion.between(face, line))
-    wanted = quaternion.rotate(quaternion.from_rotation_vector(vector.scale(turn, weight)), face)
-    now = quaternion.rotate(orientations[HEAD], (1.0, 0.0, 0.0))
-    _turn(body, rotations, orientations, HEAD, NECK, quaternion.between(now, wanted))
+    chest = orientations[BACK]
+    rest = direction_angles(quaternion.unrotate(chest, quaternion.rotate(orientations[HEAD], (1.0, 0.0, 0.0))))
+    _look_with(body, rotations, positions, orientations, NECK, BACK, target_m, rest, weight * NECK_SHARE)
+    _look_with(body, rotations, positions, orientations, HEAD, NECK, target_m, rest, weight)
+
+
+@njit(cache=True)
+def direction_angles(direction):
+    """(yaw, pitch) of a unit direction: to the left, and up. Yaw fades out where it loses its meaning, straight up and down."""
+    level = math.hypot(direction[0], direction[1])
+    t = min(level / STEEP, 1.0)
+    return (t * t * (3.0 - 2.0 * t) * math.atan2(direction[1], direction[0]), math.atan2(direction[2], level))
+
+
+@njit(cache=True)
+def _look_with(body, rotations, positions, orientations, joint, parent, target_m, rest, weight):
+    """Turns one joint until the face points as far from its rest angles towards the target as the weight says."""
+    chest = orientations[BACK]
+    line = vector.subtract(target_m, eyes_m(body, positions, orientations))
+    wanted = direction_angles(quaternion.unrotate(chest, vector.unit(line, (1.0, 0.0, 0.0))))
+    face = direction_angles(quaternion.unrotate(chest, quaternion.rotate(orientations[HEAD], (1.0, 0.0, 0.0))))
+    yaw = rest[0] + weight * (wanted[0] - rest[0])
+    pitch = rest[1] + weight * (wanted[1] - rest[1])
+    # in the chest's frame: level the face, turn it, lift it again
+    level = quaternion.multiply(quaternion.about_y(face[1]), quaternion.about_z(-face[0]))
+    turn = quaternion.multiply(quaternion.multiply(quaternion.about_z(yaw), quaternion.about_y(-pitch)), level)
+    turn = quaternion.multiply(quaternion.multiply(chest, turn), quaternion.conjugate(chest))
+    _turn(body, rotations, orientations, joint, parent, turn)
     _place(body, rotations, positions, orientations, HEAD, NECK)
 
 

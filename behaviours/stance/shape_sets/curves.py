@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from behaviours.stance.shape import LEFT_FOOT, RIGHT_FOOT
-
 
 def late(intensity: float, start: float) -> float:
     """0 up to a start, then in earnest: 1 at intensity 1, no kink at the start, straight on past 1."""
@@ -26,8 +24,3 @@ def soft_positive(intensity: float, width: float = 0.15) -> float:
     if intensity >= width:
         return intensity
     return (intensity + width) ** 2 / (4.0 * width)
-
-
-def standing_on(side: float) -> str:
-    """The foot to stand on for a lean to the left (+) or the right (-)."""
-    return LEFT_FOOT if side >= 0.0 else RIGHT_FOOT

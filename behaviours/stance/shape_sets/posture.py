@@ -34,14 +34,14 @@ def shape_of(intensity: float, around: Around) -> Shape:
 
 
 def _collapsed(a: float) -> Shape:
-    knees = 0.75 * curves.late(a, 0.45)
+    knees = 0.85 * curves.late(a, 0.45)
     arms = 0.12 * curves.late(a, 0.2)
     return shape(
         sagittal_class=LARGE_C,
-        sagittal=2.4 * a,
+        sagittal=2.7 * a,
         collar_y_rad=-0.4 * a,
         collar_z_rad=-0.1 * a,
-        pelvis_x_rad=-0.2 * a,
+        pelvis_x_rad=-0.15 * a,
         knee_left_rad=knees,
         knee_right_rad=knees,
         arm_forward_left_rad=arms,
@@ -54,10 +54,10 @@ def _collapsed(a: float) -> Shape:
 def _erect(a: float) -> Shape:
     return shape(
         sagittal_class=SMALL_S,
-        sagittal=1.6 * a,
+        sagittal=1.5 * a,
         collar_y_rad=0.35 * a,
         collar_z_rad=0.08 * curves.late(a, 0.3),
-        pelvis_x_rad=0.1 * a,
+        pelvis_x_rad=0.06 * a,
         balance_z=0.12 * a,
         elbow_left_rad=-0.16 * a,
         elbow_right_rad=-0.16 * a,

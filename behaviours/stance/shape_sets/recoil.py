@@ -8,53 +8,77 @@ together in Z, more shift, more turning.
 from __future__ import annotations
 
 from behaviours.stance.around import Around
-from behaviours.stance.shape import Shape, shape
-from behaviours.stance.shape_sets.curves import standing_on
+from behaviours.stance.shape import LEFT_FOOT, RIGHT_FOOT, Shape, shape
 from behaviours.stance.torso import ALIGNED, LARGE_C, LARGE_S, OPPOSED, SMALL_C
 
 
 def mild(intensity: float, around: Around) -> Shape:
     a, ahead, side = intensity, around.ahead, around.side
-    away = _sideways(around)  # + away to the right, from an object on the left
+    away = _sideways(around)  # + to the right, from an object on the left
     return shape(
         coronal_class=LARGE_C,
         sagittal_class=LARGE_C,
         collar_y=OPPOSED,
         collar_z=OPPOSED,
-        dominant=standing_on(-away * a),
-        coronal=1.0 * away * a,
-        sagittal=-0.9 * ahead * a,
-        transverse_rad=-0.35 * side * a,
-        collar_y_rad=-0.2 * side * a,
-        collar_z_rad=0.08 * away * a,
+        dominant=_standing_on(-away * a),
+        coronal=1.2 * away * a,
+        sagittal=-1.0 * ahead * a,
+        transverse_rad=-0.4 * side * a,
+        collar_y_rad=-0.22 * side * a,
+        collar_z_rad=0.09 * away * a,
         balance_x=-0.45 * away * a,
-        balance_z=-0.4 * ahead * a,
-        pelvis_x_rad=-0.08 * ahead * a,
-        pelvis_y_rad=-0.2 * side * a,
-        gaze=0.7 * min(abs(a), 1.0),
+        balance_z=-0.45 * ahead * a,
+        pelvis_x_rad=-0.1 * ahead * a,
+        pelvis_y_rad=-0.22 * side * a,
+        gaze=0.75 * min(abs(a), 1.0),
+        **_arms(around, 0.5 * a),
     )
 
 
 def strong(intensity: float, around: Around) -> Shape:
     a, ahead, side = intensity, around.ahead, around.side
     away = _sideways(around)
+    knees = {"knee_left_rad": 0.35 * abs(a)} if side > 0.0 else {"knee_right_rad": 0.35 * abs(a)}
     return shape(
         coronal_class=LARGE_S,
         sagittal_class=SMALL_C,
         collar_y=OPPOSED,
         collar_z=ALIGNED,
-        coronal=2.2 * away * a,
-        sagittal=1.3 * a,
-        gaze=0.7 * min(abs(a), 1.0),
+        dominant=_standing_on(-away * a),
+        coronal=2.4 * away * a,
+        sagittal=1.2 * a,
+        abdomen_x_rad=-0.22 * ahead * a,
+        transverse_rad=-0.6 * side * a,
+        collar_y_rad=-0.28 * side * a,
+        collar_z_rad=0.3 * a,
         balance_x=-0.8 * away * a,
-        balance_z=-0.6 * ahead * a,
-        pelvis_y_rad=-0.4 * side * a,
-        transverse_rad=-0.5 * side * a,
-        collar_y_rad=-0.25 * side * a,
-        collar_z_rad=0.25 * a,
+        balance_z=-0.65 * ahead * a,
+        pelvis_x_rad=-0.12 * ahead * a,
+        pelvis_y_rad=-0.42 * side * a,
+        gaze=0.75 * min(abs(a), 1.0),
+        **knees,
+        **_arms(around, a),
     )
 
 
 def _sideways(around: Around) -> float:
     """How much of the recoil goes sideways: all for an object at the side, and a part even from one straight ahead."""
     return around.side * (0.6 + 0.4 * abs(around.left))
+
+
+def _standing_on(side: float) -> str:
+    return LEFT_FOOT if side >= 0.0 else RIGHT_FOOT
+
+
+def _arms(around: Around, a: float) -> dict[str, float]:
+    """The near hand comes up between body and object, the far one is drawn along behind."""
+    near, far = ("left", "right") if around.side > 0.0 else ("right", "left")
+    return {
+        f"elbow_{near}_rad": 0.9 * max(a, 0.0),
+        f"arm_forward_{near}_rad": 0.3 * around.ahead * a,
+        f"arm_out_{near}_rad": 0.12 * max(a, 0.0),
+        f"arm_turn_{near}_rad": 0.35 * a,
+        f"elbow_{far}_rad": 0.35 * max(a, 0.0),
+        f"arm_forward_{far}_rad": -0.3 * around.ahead * a,
+        f"arm_out_{far}_rad": 0.2 * max(a, 0.0),
+    }
