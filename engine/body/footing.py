@@ -25,8 +25,12 @@ def flat_orientation(heading_rad):
 
 @njit(cache=True)
 def foot_heading(orientations, side):
-    """Where a foot points, radians about world Z; also for a foot on tiptoe or hanging down."""
-    return quaternion.heading(orientations[ANKLES[side]])
+    """Where a foot points, radians about world Z: at right angles to its Y axis, so that pitch does not matter.
+
+    A runner's trailing foot hangs past the vertical, and its X axis points backwards; its Y axis stays where it was.
+    """
+    across = quaternion.rotate(orientations[ANKLES[side]], (0.0, 1.0, 0.0))
+    return math.atan2(-across[0], across[1])
 
 
 @njit(cache=True)

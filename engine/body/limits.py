@@ -31,7 +31,9 @@ _DEGREES = {
     "neck": ((-50, 50), (-65, 50), (-65, 65)),  # with the head's: NASA's whole cervical spine
     "head": ((-15, 15), (-38, 25), (-40, 40)),  # upper cervical: the atlas turns 40 to each side
     "left_clavicle": ((-10, 45), (-35, 35), (-30, 30)),  # depression, elevation; axial; protraction, retraction
-    "left_shoulder": ((-64, 180), (-180, 83), (-127, 127)),  # adducted across the chest to abducted; flexed to extended
+    # adducted to abducted; flexed to extended. 45 degrees past straight ahead (AAOS: 135 of horizontal adduction) is a
+    # swing X of -64 for a level arm, and of -100 for one raised across the face: the box has to hold both
+    "left_shoulder": ((-100, 180), (-180, 83), (-127, 127)),
     "left_elbow": ((-15, 15), (-159, 0), (-126, 126)),  # carrying angle; flexion, none backwards; forearm
     "left_wrist": ((-95, 78), (-37, 48), (-15, 15)),  # flexion, extension; radial, ulnar; play
     "left_hip": ((-30, 54), (-148, 30), (-45, 45)),  # adduction, abduction; flexion, extension; rotation
@@ -69,6 +71,19 @@ def from_components(swing_x_rad, swing_y_rad, twist_rad):
     return quaternion.multiply(
         quaternion.from_rotation_vector((swing_x_rad, swing_y_rad, 0.0)), quaternion.about_z(twist_rad)
     )
+
+
+@njit(cache=True)
+def mix(a, b, weight):
+    """A rotation between two, component by component: weight 0 gives a, 1 gives b.
+
+    Limits are intervals of the components, so between two rotations inside them this one is inside; slerp is not. A hinge
+    stays a hinge: an elbow that slerp takes from one forearm twist to another bends sideways on the way, this one does
+    not. For joints that swing far from half a turn (elbow, wrist, knee, ankle); a shoulder is better slerped.
+    """
+    x0, y0, z0 = components(a)
+    x1, y1, z1 = components(b)
+    return from_components(x0 + weight * (x1 - x0), y0 + weight * (y1 - y0), z0 + weight * (z1 - z0))
 
 
 @njit(cache=True)

@@ -46,6 +46,21 @@ def test_clamping_is_continuous(seed, joint):
     assert quaternion.angle_between(one, other) < 1e-3
 
 
+def test_an_elbow_mixed_from_one_twist_to_another_stays_a_hinge_and_inside_its_limits():
+    low, high = LOW[ELBOWS[0]], HIGH[ELBOWS[0]]
+    a, b = limits.from_components(0.0, -0.3, 1.4), limits.from_components(0.0, -2.4, -1.0)
+    assert quaternion.angle_between(limits.mix(a, b, 0.0), a) < 1e-9
+    assert quaternion.angle_between(limits.mix(a, b, 1.0), b) < 1e-9
+    slerped = 0.0
+    for weight in np.linspace(0, 1, 21):
+        between = limits.mix(a, b, weight)
+        assert abs(limits.components(between)[0]) < 1e-12
+        assert limits.joint_excess_rad(low, high, quaternion.IDENTITY, between) == 0.0
+        slerp = quaternion.slerp(a, b, weight)
+        slerped = max(slerped, limits.joint_excess_rad(low, high, quaternion.IDENTITY, slerp))
+    assert slerped > 0.2  # what it is for
+
+
 def test_an_excess_of_the_reference_is_kept_and_never_added_to():
     low, high = LOW[KNEES[0]], HIGH[KNEES[0]]
     overstretched = quaternion.about_y(-0.1)

@@ -115,6 +115,13 @@ def test_a_foot_that_is_put_down_lies_flat_where_it_was_sent(seed, side):
         assert math.dist(target, hip) == pytest.approx(footing.leg_length_m(BODY, side) - 0.01)
 
 
+def test_a_foot_that_hangs_past_the_vertical_still_points_ahead():
+    _, positions, orientations = unpacked(BODY, identity_pose())
+    for pitch in (0.0, 1.2, 1.57, 2.2):
+        orientations[ANKLES[0]] = quaternion.multiply(quaternion.about_z(0.4), quaternion.about_y(pitch))
+        assert footing.foot_heading(orientations, 0) == pytest.approx(0.4, abs=1e-12)
+
+
 def test_a_hip_too_high_over_the_ground_is_said():
     _, positions, orientations = unpacked(BODY, identity_pose(2.0))
     target, _, reachable = footing.nearest_footing(BODY, positions, orientations, 0, 0.0, 0.01)
