@@ -15,11 +15,12 @@ OUT, FORWARD, ELBOW, TURN, PALM, SWIVEL = range(6)
 ARM_PARAMETERS = ("out", "forward", "elbow", "turn", "palm", "swivel")
 
 # the neutral arm: a little away from the thigh, the elbow soft, the palm turned a little back
-NEUTRAL_OUT, NEUTRAL_FORWARD, NEUTRAL_ELBOW, NEUTRAL_PALM = (math.radians(a) for a in (9.0, 0.0, 16.0, 12.0))
+NEUTRAL_OUT, NEUTRAL_FORWARD, NEUTRAL_ELBOW, NEUTRAL_PALM = (math.radians(a) for a in (10.0, 2.0, 16.0, 12.0))
 # by default the elbow points this far out from straight down and back when it reaches
 NEUTRAL_SWIVEL = math.radians(20.0)
 # how far an arm that hangs follows gravity (1) rather than the chest (0)
 HANG = 0.85
+SOFT_LEAN = 0.1  # radians of sideways lean over which the flank takes an arm up
 # how the nearest allowed swivel is looked for
 SWIVEL_STEPS, SWIVEL_STEP = 12, math.radians(10.0)
 
@@ -28,12 +29,10 @@ SWIVEL_STEPS, SWIVEL_STEP = 12, math.radians(10.0)
 def hang_arm(body, arm, side, rotations, chest, clavicle):
     """An arm without target: away from the body, forward, turned in, the elbow bent; written to rotations (J, 4).
 
-    arm (6,): see the slots. chest, clavicle: world orientations. It hangs mostly by gravity, so that a bent back lets the arms
-    drop and does not carry them behind itself.
+    arm (6,): see the slots. chest, clavicle: world orientations.
     """
     out = 1.0 - 2.0 * side
-    upright = quaternion.about_z(quaternion.heading(chest))
-    base = quaternion.slerp(chest, upright, HANG)
+    base = _hanging_from(chest, out)
     lift = quaternion.from_rotation_vector((out * (arm[OUT] + NEUTRAL_OUT), -(arm[FORWARD] + NEUTRAL_FORWARD), 0.0))
     upper = quaternion.multiply(base, quaternion.multiply(lift, quaternion.about_z(-out * arm[TURN])))
     shoulder = quaternion.multiply(quaternion.conjugate(clavicle), upper)
@@ -43,6 +42,23 @@ def hang_arm(body, arm, side, rotations, chest, clavicle):
     palm = min(max(arm[PALM] + NEUTRAL_PALM, body.limit_low_rad[e, 2]), body.limit_high_rad[e, 2])
     _put(rotations, e, quaternion.multiply(bend, quaternion.about_z(-out * palm)))
     _put(rotations, WRISTS[side], quaternion.IDENTITY)
+
+
+@njit(cache=True)
+def _hanging_from(chest, out):
+    """The frame that an arm without target hangs in: it goes with the chest's heading and follows gravity for the rest.
+
+    So a bent back lets the arms drop and does not carry them behind itself. Sideways gravity pulls only the arm that it
+    pulls off the body; the other one lies against the flank and leans with it.
+    """
+    heading = quaternion.about_z(quaternion.heading(chest))
+    up = quaternion.unrotate(heading, quaternion.rotate(chest, (0.0, 0.0, 1.0)))
+    bow = math.atan2(up[0], up[2])
+    lean = out * math.atan2(-up[1], math.hypot(up[0], up[2]))  # + away from this arm, over which it then lies
+    onto_flank = 0.5 * (lean + math.sqrt(lean * lean + SOFT_LEAN * SOFT_LEAN)) - 0.5 * SOFT_LEAN
+    kept = (1.0 - HANG) * lean + HANG * onto_flank
+    tipped = quaternion.multiply(quaternion.about_y((1.0 - HANG) * bow), quaternion.about_x(out * kept))
+    return quaternion.multiply(heading, tipped)
 
 
 @njit(cache=True)

@@ -19,6 +19,8 @@ def shape_of(intensity: float, around: Around) -> Shape:
         balance_z=0.1 * a,
         balance_x=-0.25 * a,
         knee_left_rad=max(0.12 * a, 0.0),
+        arm_out_left_rad=0.06 * a,
+        arm_out_right_rad=0.06 * a,
         arm_forward_left_rad=-0.05 * a,
         arm_forward_right_rad=-0.05 * a,
     )
