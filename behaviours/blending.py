@@ -14,9 +14,10 @@ from typing import NamedTuple
 import numpy as np
 from numba import njit
 
+from engine.body import limits
 from engine.body.kinematics import centre_of_mass, joints_into
 from engine.body.limb_ik import CARRIED, apply_arm, apply_leg, arm_swivel, leg_swivel
-from engine.body.skeleton import ANKLES, HEAD, HIPS, JOINT_COUNT, KNEES, NECK, PELVIS, WRISTS
+from engine.body.skeleton import ANKLES, ELBOWS, HEAD, HIPS, JOINT_COUNT, KNEES, NECK, PELVIS, WRISTS
 from engine.maths import quaternion, vector
 
 COM_PASSES = 5  # each closes about nine tenths of what is missing: the legs stay behind when the pelvis moves
@@ -66,9 +67,15 @@ def primary_support(planted, ankles_m, com_m):
 
 @njit(cache=True)
 def slerp_from_support(body, start, end, weight, support, root_m, rotations, positions, orientations):
-    """First pass: every joint slerped, and the pelvis placed so that the support foot goes straight from end to end."""
+    """First pass: every joint slerped, and the pelvis placed so that the support foot goes straight from end to end.
+
+    Elbows and wrists go component by component: slerp would take an elbow sideways from one forearm twist to another.
+    """
     for j in range(JOINT_COUNT):
-        q = quaternion.slerp(start.rotations[j], end.rotations[j], weight)
+        if j == ELBOWS[0] or j == ELBOWS[1] or j == WRISTS[0] or j == WRISTS[1]:
+            q = limits.mix(start.rotations[j], end.rotations[j], weight)
+        else:
+            q = quaternion.slerp(start.rotations[j], end.rotations[j], weight)
         rotations[j, 0], rotations[j, 1], rotations[j, 2], rotations[j, 3] = q
     root_m[:] = 0.0
     rotations[PELVIS, 0], rotations[PELVIS, 1], rotations[PELVIS, 2], rotations[PELVIS, 3] = quaternion.IDENTITY
