@@ -140,7 +140,7 @@ def _clips() -> Finding:
 
     listed = list_clips()
     ready = [clip.name for clip in listed if clip.ready]
-    absent = [clip.name for clip in listed if not clip.ready]
+    absent = [clip.name for clip in listed if not clip.ready and not clip.extra]
     if absent:
         return Finding("clips", WARNING, f"{', '.join(ready)}; not here: {', '.join(absent)}", "brace clips fetch")
     return Finding("clips", GOOD, ", ".join(ready))

@@ -19,7 +19,8 @@ def register(subparsers) -> None:
     what = parser.add_subparsers(title="what", metavar="WHAT", dest="what")
     listing = what.add_parser("list", help="the clips that have a name", epilog="example: brace clips list --json")
     listing.add_argument("--json", action="store_true", help="the same for programs")
-    what.add_parser("fetch", help="brings the real clips into the cache", epilog="example: brace clips fetch")
+    fetching = what.add_parser("fetch", help="brings the real clips here", epilog="example: brace clips fetch --extra")
+    fetching.add_argument("--extra", action="store_true", help="get-ups, a punch and a kick too (downloads 103 MB)")
     show = what.add_parser("show", help="what an import makes of a file", epilog="example: brace clips show 02_01.bvh")
     show.add_argument("file", metavar="FILE", help="a .bvh, .amc (its .asf beside it) or .npz file, or a clip's name")
     show.add_argument("--json", action="store_true", help="the report for programs, with all joints at --at")
@@ -29,7 +30,7 @@ def register(subparsers) -> None:
 
 def run(args: argparse.Namespace) -> None:
     if args.what == "fetch":
-        _fetch()
+        _fetch(args.extra)
     elif args.what == "show":
         _show(args)
     else:
@@ -44,14 +45,15 @@ def _list(args: argparse.Namespace) -> None:
         print_json({"clips": [{"name": c.name, "about": c.about, "ready": c.ready, "file": c.path} for c in listed]})
         return
     for clip in listed:
-        print(f"{clip.name:<8} {clip.about}{'' if clip.ready else '  (not here: brace clips fetch)'}")
+        how = "brace clips fetch --extra" if clip.extra else "brace clips fetch"
+        print(f"{clip.name:<15} {clip.about}{'' if clip.ready else f'  (not here: {how})'}")
 
 
-def _fetch() -> None:
+def _fetch(extra: bool) -> None:
     from engine.clips.library import fetch, list_clips
 
-    fetch(lambda line: print(line, flush=True))
-    print(f"here: {', '.join(clip.name for clip in list_clips())}")
+    fetch(lambda line: print(line, flush=True), extra)
+    print(f"here: {', '.join(clip.name for clip in list_clips() if clip.ready)}")
 
 
 def _show(args: argparse.Namespace) -> None:

@@ -38,7 +38,8 @@ def find_axes(tracks: Tracks, rig: Rig) -> Axes:
     left = rest[rig.hip[0]] - rest[rig.hip[1]]
     left = _nearest_axis(left - up * np.sum(left * up))
     rest_from_file = _from_up_and_left(up, left)
-    world_up = _world_up(tracks, rig, up)
+    # someone who crawls or lies all through would else be taken for a turned file
+    world_up = up if tracks.level else _world_up(tracks, rig, up)
     if np.array_equal(world_up, up):
         world_from_file = rest_from_file
     else:

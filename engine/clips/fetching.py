@@ -37,6 +37,9 @@ fetched for use here and should not be published again. The licence below is tha
 ISAAC = """The package states its licence, for this motion too, as BSD-3-Clause (License: BSD-3-Clause in its metadata).
 The text of that licence:"""
 
+DEEPMIMIC = """The motion is DeepMimic's (Peng, Abbeel, Levine and van de Panne 2018), whose authors publish it under
+the MIT licence, Copyright (c) 2018 Xue Bin Peng. The licence below is that of the package it was fetched from."""
+
 
 @dataclass(frozen=True)
 class Member:
@@ -132,6 +135,42 @@ SOURCES = (
     ),
 )
 
+DEEPMIMIC_MOTIONS = "pybullet_data/data/motions/humanoid3d"
+# a hundred megabytes for a few small files: only when asked for
+EXTRA_SOURCES = (
+    Source(
+        "pybullet",
+        "3.2.7",
+        "5d858abf7c12a21ef3ed351cf81dac1b5e486ec25c9ab59bfc84beb89034edff",
+        # its data is the same for every machine; this is the archive whose hash is known
+        ("--only-binary", ":all:", "--python-version", "3.11", "--platform", "manylinux2014_x86_64"),
+        (
+            Member(
+                f"{DEEPMIMIC_MOTIONS}_getup_faceup.txt",
+                "getup_faceup.json",
+                "5936c32d51dad9b0cd5e61df681079d160436cdce845c312f200d7a347c4040d",
+            ),
+            Member(
+                f"{DEEPMIMIC_MOTIONS}_getup_facedown.txt",
+                "getup_facedown.json",
+                "1bd1a96e9175f65eb66e10f225473b4467bd70c68e283f4006b2ab090e337c0b",
+            ),
+            Member(
+                f"{DEEPMIMIC_MOTIONS}_punch.txt",
+                "punch.json",
+                "1ab4b654cecdb4ff3b2a4bf4086e50397bef28435bb59ab3aedd6a6bdc926fde",
+            ),
+            Member(
+                f"{DEEPMIMIC_MOTIONS}_kick.txt",
+                "kick.json",
+                "177cfb399466309ba7f4a8a987c3b6f6edde1cbe8b2d476e53dc6061ec5d4bac",
+            ),
+        ),
+        "pybullet-3.2.7.dist-info/LICENSE.txt",
+        DEEPMIMIC,
+    ),
+)
+
 
 class Refused(Exception):
     """Why one archive could not be used; its text goes to the user."""
@@ -142,11 +181,12 @@ def clip_folder() -> Path:
     return cache_folder() / "clips"
 
 
-def fetch(show: Callable[[str], None] = lambda line: None) -> None:
-    """Brings every clip of the library that is not here, or not whole. EnvironmentTrouble names those that could not be
-    brought."""
+def fetch(show: Callable[[str], None] = lambda line: None, extra: bool = False) -> None:
+    """Brings every clip of the library that is not here, or not whole; with `extra` those of the large archive too.
+
+    EnvironmentTrouble names those that could not be brought."""
     failures = []
-    for source in SOURCES:
+    for source in SOURCES + (EXTRA_SOURCES if extra else ()):
         if is_here(source):
             continue
         show(f"fetching {', '.join(source.clips)} ({source.package} {source.version})")
@@ -270,7 +310,10 @@ def _reader(archive: Path) -> Callable[[str], bytes]:
 
 
 def _wanted(name: str) -> bool:
-    return any(name in (source.licence_inside, *(member.inside for member in source.members)) for source in SOURCES)
+    return any(
+        name in (source.licence_inside, *(member.inside for member in source.members))
+        for source in SOURCES + EXTRA_SOURCES
+    )
 
 
 def _sha256(path: Path) -> str | None:

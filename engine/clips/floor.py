@@ -32,12 +32,14 @@ class Floor(NamedTuple):
     planted: np.ndarray  # (F, 2)
 
 
-def fit_floor(ball_m: np.ndarray, ankle_m: np.ndarray, pelvis_m: np.ndarray, fps: float) -> Floor:
+def fit_floor(
+    ball_m: np.ndarray, ankle_m: np.ndarray, pelvis_m: np.ndarray, fps: float, level: bool = False
+) -> Floor:
     """The floor under balls and ankles (F, 2, 3) that were captured at some rate. Feet that never stand take the
-    other's level."""
+    other's level. `level`: the floor is known to have no slope."""
     stands = _first_guess(ball_m, pelvis_m, fps)
     for _ in range(ROUNDS):
-        levels, slope = _plane(ball_m, stands)
+        levels, slope = _plane(ball_m, stands, 0.0 if level else STEEPEST)
         rise = np.sum(ankle_m[..., :2] * slope, axis=-1)
         ankle_levels = _ankle_levels(ankle_m[..., 2] - rise, stands)
         ball, ankle = ball_m.copy(), ankle_m.copy()
@@ -64,7 +66,7 @@ def _first_guess(ball_m: np.ndarray, pelvis_m: np.ndarray, fps: float) -> np.nda
     return near & slow if (near & slow).any() else near
 
 
-def _plane(ball_m: np.ndarray, stands: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+def _plane(ball_m: np.ndarray, stands: np.ndarray, steepest: float) -> tuple[np.ndarray, np.ndarray]:
     """Levels (2,) of the two balls and one slope (2,), least squares with the slope held back as if by footprints
     spread SPREAD_M, the farthest outliers (toes that push off, heels that strike) left out."""
     if not stands.any():
@@ -81,7 +83,7 @@ def _plane(ball_m: np.ndarray, stands: np.ndarray) -> tuple[np.ndarray, np.ndarr
         # a foot that never stands leaves its level open: a whisper of weight ties it to zero until it is replaced below
         normal[[0, 1], [0, 1]] += 1e-9
         solved = np.linalg.solve(normal, np.einsum("ni,n->i", columns, height[kept]))
-        slope = solved[2:] * min(1.0, STEEPEST / max(float(np.linalg.norm(solved[2:])), 1e-9))
+        slope = solved[2:] * min(1.0, steepest / max(float(np.linalg.norm(solved[2:])), 1e-9))
         residual = height - np.where(side == 0, solved[0], solved[1]) - np.sum((at - centre) * slope, axis=-1)
         apart = solved[0] - solved[1]
         if abs(apart) > FEET_APART_M and len(np.unique(side[counted])) == 2:

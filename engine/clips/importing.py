@@ -15,6 +15,7 @@ from engine.clips.axes import find_axes, leg_length
 from engine.clips.bvh import read_bvh
 from engine.clips.clip import Clip, ImportReport
 from engine.clips.contacts import runs
+from engine.clips.deepmimic import read_deepmimic
 from engine.clips.feet import level_feet, stand_on
 from engine.clips.floor import Floor, fit_floor, level_from_floor
 from engine.clips.looping import find_loop
@@ -36,7 +37,8 @@ def import_clip(
     name: str | None = None,
     frames: tuple[int, int] | None = None,
 ) -> Clip:
-    """The clip in a .bvh, .amc (its .asf beside it) or .npz file. BadInput says what is wrong with the file, and where.
+    """The clip in a .bvh, .amc (its .asf beside it), .npz or .json (DeepMimic) file. BadInput says what is wrong
+    with the file, and where.
 
     frames: first and last frame of the file to keep, 0-based; all of them if absent.
     """
@@ -50,7 +52,8 @@ def read_tracks(path: Path) -> Tracks:
     files = sources_of(path)
     if len(files) == 2:
         return read_acclaim(*files)
-    return read_bvh(path) if path.suffix.lower() == ".bvh" else read_npz(path)
+    readers = {".bvh": read_bvh, ".npz": read_npz, ".json": read_deepmimic}
+    return readers[path.suffix.lower()](path)
 
 
 class Standing(NamedTuple):
@@ -70,7 +73,7 @@ def build_clip(tracks: Tracks, where: Path, wanted: Wanted, name: str, key: str)
     axes = find_axes(tracks, rig)
     mapped = map_tracks(tracks, rig, axes)
     dropped = _dropped(mapped, _body(mapped, mapped.offset_m, wanted, where), tracks)
-    standing = _stand(_kept(mapped.pose, dropped, wanted, where), mapped, wanted, where, tracks.fps)
+    standing = _stand(_kept(mapped.pose, dropped, wanted, where), mapped, wanted, where, tracks)
     pose, facing = _facing_ahead(standing.pose, standing.floor_m)
     loop = find_loop(pose, standing.body, standing.planted, tracks.fps)
     report = ImportReport(
@@ -97,9 +100,10 @@ def build_clip(tracks: Tracks, where: Path, wanted: Wanted, name: str, key: str)
     return Clip(name, tracks.fps, pose, standing.body, standing.planted, loop, report, key)
 
 
-def _stand(pose: Pose, mapped: Mapped, wanted: Wanted, where: Path, fps: float) -> Standing:
+def _stand(pose: Pose, mapped: Mapped, wanted: Wanted, where: Path, tracks: Tracks) -> Standing:
     """Finds the floor, levels it, and puts the soles on it."""
-    floor = _floor(pose, _body(mapped, mapped.offset_m, wanted, where), fps)
+    fps = tracks.fps
+    floor = _floor(pose, _body(mapped, mapped.offset_m, wanted, where), fps, tracks.level)
     pose = _turned(pose, level_from_floor(floor.slope))
     positions, orientations = joints_of(_body(mapped, mapped.offset_m, wanted, where), pose)
     feet = level_feet(pose, mapped.offset_m, orientations, floor.planted, fps)
@@ -146,9 +150,9 @@ def _kept(pose: Pose, dropped: int, wanted: Wanted, where: Path) -> Pose:
     return Pose(pose.root_m[keep].copy(), pose.rotations[keep].copy())
 
 
-def _floor(pose: Pose, body: Body, fps: float) -> Floor:
+def _floor(pose: Pose, body: Body, fps: float, level: bool) -> Floor:
     positions, _ = joints_of(body, pose)
-    return fit_floor(positions[:, list(TOES)], positions[:, list(ANKLES)], pose.root_m, fps)
+    return fit_floor(positions[:, list(TOES)], positions[:, list(ANKLES)], pose.root_m, fps, level)
 
 
 def _turned(pose: Pose, turn: np.ndarray) -> Pose:

@@ -27,6 +27,7 @@ class Listed:
     about: str
     file: str | None = None  # in the folder of fetched clips; None for the embedded one
     frames: tuple[int, int] | None = None  # of the file, if not all of it
+    extra: bool = False  # comes only when asked for: its archive is large
 
     @property
     def path(self) -> Path | None:
@@ -45,6 +46,11 @@ LIBRARY = (
     Listed("hop", "hops ahead, turns, hops back, 23 s (CMU 01_01)", "hop.amc"),
     # after two seconds he bends down to kneel
     Listed("stand", "standing still, goes round", "stand.bvh", (0, 64)),
+    Listed("kneel", "stands, kneels down, stands up again, 15 s", "stand.bvh"),
+    Listed("getup_faceup", "gets up from lying on the back, 4 s", "getup_faceup.json", extra=True),
+    Listed("getup_facedown", "gets up from lying on the front, 3 s", "getup_facedown.json", extra=True),
+    Listed("punch", "two punches, 2 s", "punch.json", extra=True),
+    Listed("kick", "a kick, 1.5 s", "kick.json", extra=True),
     Listed("sway", "standing, shifting weight, breathing; embedded, goes round"),
 )
 
@@ -74,7 +80,8 @@ def find_clip(
 
         return sway(sex, body_mass_kg)
     if not named.ready:
-        message = f"clip {named.name!r} is not here yet; `brace clips fetch` brings it, `sway` needs no fetching"
+        how = "brace clips fetch --extra" if named.extra else "brace clips fetch"
+        message = f"clip {named.name!r} is not here yet; `{how}` brings it, `sway` needs no fetching"
         raise EnvironmentTrouble("clip-not-fetched", message)
     return load_clip(named.path, Wanted(sex, body_mass_kg, *(named.frames or (0, None))), named.name)
 

@@ -10,7 +10,7 @@ from pathlib import Path
 from engine.clips.acclaim import find_asf
 from engine.core.errors import BadInput
 
-FORMATS = (".bvh", ".amc", ".npz")
+FORMATS = (".bvh", ".amc", ".npz", ".json")
 
 
 @dataclass(frozen=True)
