@@ -155,6 +155,16 @@ def test_limp_joints_stop_at_their_limits_and_keep_what_the_target_oversteps():
     assert quaternion.angle_between(last, rotations[KNEES[0]]) < 0.01
 
 
+def test_a_state_that_has_left_the_numbers_stays_so_and_leaves_no_log_file(tmp_path, monkeypatch):
+    """It must reach the world's check as it is, not come back as MuJoCo's rest pose."""
+    monkeypatch.chdir(tmp_path)
+    pose = standing()
+    state = ragdoll.start(MODEL, pose, pose, TICK_S)
+    state[MODEL.velocities.start] = np.nan
+    assert not np.isfinite(ragdoll.step(MODEL, state, pose, 1.0, 1.0, TICK_S)).all()
+    assert list(tmp_path.iterdir()) == []
+
+
 def test_feet_are_free_to_slip():
     """A standing body pushed along hard goes along: the feet are held by friction alone."""
     pose = standing()
