@@ -15,14 +15,14 @@ import numpy as np
 from numba import njit
 
 from engine.body import limits
+from engine.body.footing import drop_to_reach
 from engine.body.kinematics import centre_of_mass, joints_into
 from engine.body.limb_ik import CARRIED, apply_arm, apply_leg, arm_swivel, leg_swivel
-from engine.body.skeleton import ANKLES, ELBOWS, HEAD, HIPS, JOINT_COUNT, KNEES, NECK, PELVIS, WRISTS
+from engine.body.skeleton import ANKLES, ELBOWS, HEAD, HIPS, JOINT_COUNT, NECK, PELVIS, WRISTS
 from engine.maths import quaternion, vector
 
 COM_PASSES = 5  # each closes about nine tenths of what is missing: the legs stay behind when the pelvis moves
 COM_GAIN = 1.12
-LEG_SOFT_M = 0.006  # a leg straightens over this length, instead of snapping straight
 
 
 class FootGoals(NamedTuple):
@@ -119,22 +119,6 @@ def hold_feet(body, goals, knee_swivels, root_m, rotations, positions, orientati
                 knee_swivels[side],
                 0.0,
             )
-
-
-@njit(cache=True)
-def drop_to_reach(body, hip_m, ankle_m, side):
-    """How far the hip has to sink to keep the ankle in the leg's reach, metres.
-
-    It begins a little before the leg is straight and never lets it get quite there, so that the knee does not snap. Where the
-    foot stands farther off sideways than the leg is long, sinking helps no further: as far as it does.
-    """
-    full = vector.length(body.offset_m[KNEES[side]]) + vector.length(body.offset_m[ANKLES[side]])
-    over = vector.distance(hip_m, ankle_m) - (full - LEG_SOFT_M)
-    if over <= 0.0:
-        return 0.0
-    reach = full - LEG_SOFT_M * math.exp(-over / LEG_SOFT_M)
-    across = math.hypot(hip_m[0] - ankle_m[0], hip_m[1] - ankle_m[1])
-    return max(0.0, hip_m[2] - ankle_m[2] - math.sqrt(max(reach * reach - across * across, 0.0)))
 
 
 @njit(cache=True)

@@ -7,11 +7,11 @@ from numba import njit
 
 from behaviours import feet as foot_plan
 from behaviours import seams
-from behaviours.blending import drop_to_reach
 from behaviours.components import Blend, Character, Feet, Phase, Playback, Posture, Ragdoll, Reaction, Residual
 from behaviours.inertialise import add_remaining, remaining, turned_by
 from behaviours.playing import body_of, clip_time_s, planted_in_clip
 from behaviours.sources import foot_goals, source_pose
+from engine.body.footing import drop_to_reach
 from engine.body.kinematics import joints_into
 from engine.body.limb_ik import apply_leg, leg_swivel
 from engine.body.skeleton import HIPS, JOINT_COUNT

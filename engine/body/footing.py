@@ -10,6 +10,8 @@ from engine.body import support
 from engine.body.skeleton import ANKLES, HIPS, KNEES, TOES
 from engine.maths import quaternion, vector
 
+LEG_SOFT_M = 0.006  # a leg straightens over this length, instead of snapping straight
+
 
 @njit(cache=True)
 def sole_depth_m(body, side):
@@ -37,6 +39,22 @@ def foot_heading(orientations, side):
 def leg_length_m(body, side):
     """Hip to ankle of the straight leg."""
     return vector.length(body.offset_m[KNEES[side]]) + vector.length(body.offset_m[ANKLES[side]])
+
+
+@njit(cache=True)
+def drop_to_reach(body, hip_m, ankle_m, side):
+    """How far the hip has to sink to keep the ankle in the leg's reach, metres.
+
+    It begins a little before the leg is straight and never lets it get quite there, so that the knee does not snap.
+    Where the foot stands farther off sideways than the leg is long, sinking helps no further: as far as it does.
+    """
+    full = leg_length_m(body, side)
+    over = vector.distance(hip_m, ankle_m) - (full - LEG_SOFT_M)
+    if over <= 0.0:
+        return 0.0
+    reach = full - LEG_SOFT_M * math.exp(-over / LEG_SOFT_M)
+    across = math.hypot(hip_m[0] - ankle_m[0], hip_m[1] - ankle_m[1])
+    return max(0.0, hip_m[2] - ankle_m[2] - math.sqrt(max(reach * reach - across * across, 0.0)))
 
 
 @njit(cache=True)
