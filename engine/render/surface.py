@@ -105,6 +105,11 @@ def both_sides(shape: Shape) -> Shape:
     )
 
 
+def shifted(shape: Shape, by: np.ndarray) -> Shape:
+    """The shape moved."""
+    return Shape(lambda points: shape.field(points - by), shape.low + by, shape.high + by)
+
+
 def half_space(point, outward) -> Field:
     """Everything behind a plane; as a cutter it removes that side."""
     point, outward = np.asarray(point, float), np.asarray(outward, float)

@@ -9,7 +9,8 @@ import pytest
 
 from engine.body import skeleton as sk
 from engine.body.anthropometry import make_body, standard_body
-from engine.render.mannequin import JOINT, VISOR, mannequin_mesh, mannequin_parts, rest_positions, stature_m
+from engine.render.mannequin import mannequin_mesh, mannequin_parts, rest_positions, stature_m
+from engine.render.sculpture.parts import JOINT, VISOR
 from engine.render.surface import ball, blend, carve, ellipsoid, half_space, mesh, taper, without_buried
 
 
