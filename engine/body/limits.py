@@ -77,9 +77,9 @@ def from_components(swing_x_rad, swing_y_rad, twist_rad):
 def mix(a, b, weight):
     """A rotation between two, component by component: weight 0 gives a, 1 gives b.
 
-    Limits are intervals of the components, so between two rotations inside them this one is inside; slerp is not. A hinge
-    stays a hinge: an elbow that slerp takes from one forearm twist to another bends sideways on the way, this one does
-    not. For joints that swing far from half a turn (elbow, wrist, knee, ankle); a shoulder is better slerped.
+    Limits are intervals of the components, so between two rotations inside them this one is inside; slerp is not. A
+    hinge stays a hinge: an elbow that slerp takes from one forearm twist to another bends sideways on the way, this one
+    does not. For joints that swing far from half a turn (elbow, wrist, knee, ankle); a shoulder is better slerped.
     """
     x0, y0, z0 = components(a)
     x1, y1, z1 = components(b)

@@ -86,7 +86,7 @@ def _turn(a, b, c):
 
 @njit(cache=True)
 def _extend(chain, first, m, point):
-    """Adds a point to the chain, dropping those since `first` that would no longer be corners. Returns its new length."""
+    """Adds a point to the chain, dropping those since `first` that are corners no longer. Returns its new length."""
     while m >= first + 2 and _turn(chain[m - 2], chain[m - 1], point) <= 0.0:
         m -= 1
     chain[m, 0], chain[m, 1] = point[0], point[1]

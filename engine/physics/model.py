@@ -23,8 +23,8 @@ from engine.core.errors import EnvironmentTrouble
 from engine.maths.ballistics import GRAVITY_MPS2
 from engine.physics.layout import STATE_SIZE
 
-# MuJoCo would write a log file wherever the user happens to be. What it warns of, a state that has left the numbers, shows
-# in the state itself, and the world stops at it by name.
+# MuJoCo would write a log file wherever the user happens to be. What it warns of, a state that has left the numbers,
+# shows in the state itself, and the world stops at it by name.
 mujoco.set_mju_user_warning(lambda _text: None)
 
 SUB_STEPS_HZ = 480
