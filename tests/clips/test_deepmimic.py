@@ -71,7 +71,7 @@ def test_the_file_s_own_heading_is_put_right(tmp_path):
 @pytest.mark.parametrize(
     ("rows", "found"),
     [
-        ([], "no \"Frames\""),
+        ([], 'no "Frames"'),
         ([row()[:-1]], "43 numbers in frame 0"),
         ([row(), "frame"], "in frame 1"),
         ([row(), [*row()[:-1], "x"]], "else than numbers"),

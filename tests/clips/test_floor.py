@@ -13,7 +13,8 @@ FPS = 120.0
 
 
 def walking_feet(slope=(0.0, 0.0), steps=6, apart_m=0.0):
-    """Balls, ankles (F, 2, 3) and pelvis of someone who puts down one foot after the other along X; and when each stands."""
+    """Balls, ankles (F, 2, 3) and pelvis of someone who puts down one foot after the other along X; and when each
+    stands."""
     frames = 60 * steps
     ball, stands = np.zeros((frames, 2, 3)), np.zeros((frames, 2), bool)
     for side in (0, 1):

@@ -55,7 +55,13 @@ def test_limbs_keep_the_subjects_own_lengths_and_hang_along_z(tmp_path):
 
 
 def test_elbows_bend_about_minus_y_and_knees_about_y(tmp_path):
-    bent = {**ARMS_HANG, "LeftForeArm": (0, -70, 0), "RightForeArm": (0, 50, 0), "LeftLeg": (0, 0, 60), "RightLeg": (0, 0, 30)}
+    bent = {
+        **ARMS_HANG,
+        "LeftForeArm": (0, -70, 0),
+        "RightForeArm": (0, 50, 0),
+        "LeftLeg": (0, 0, 60),
+        "RightLeg": (0, 0, 30),
+    }
     clip = import_clip(write_person(tmp_path / "bent.bvh", [bent] * 30))
     for joint, degrees in ((LEFT_ELBOW, -70), (RIGHT_ELBOW, -50), (LEFT_KNEE, 60), (RIGHT_KNEE, 30)):
         vector = np.degrees(rotations.to_rotation_vector(clip.pose.rotations[0, joint]))
@@ -170,7 +176,10 @@ def test_several_spine_joints_make_one_and_the_chest_turns_as_it_did(tmp_path):
 
 
 def test_what_is_no_person_is_refused_by_name(tmp_path):
-    for lost, message in ((("LeftForeArm", "LeftHand"), "expected a left"), (("RightFoot", "RightToeBase"), "below RightLeg")):
+    for lost, message in (
+        (("LeftForeArm", "LeftHand"), "expected a left"),
+        (("RightFoot", "RightToeBase"), "below RightLeg"),
+    ):
         path = write_person(tmp_path / "no.bvh", STILL, joints=without(*lost))
         with pytest.raises(BadInput, match=message):
             import_clip(path)

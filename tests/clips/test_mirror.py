@@ -30,9 +30,13 @@ def test_every_joint_sole_and_the_centre_of_mass_are_mirrored(lopsided):
     places, turned = joints_of(lopsided.body, lopsided.pose)
     other_places, other_turned = joints_of(mirrored.body, mirrored.pose)
     np.testing.assert_allclose(other_places, places[:, MIRRORED] * FLIP, atol=1e-12)
-    np.testing.assert_allclose(com_of(mirrored.body, mirrored.pose), com_of(lopsided.body, lopsided.pose) * FLIP, atol=1e-9)
+    np.testing.assert_allclose(
+        com_of(mirrored.body, mirrored.pose), com_of(lopsided.body, lopsided.pose) * FLIP, atol=1e-9
+    )
     soles = sole_points(lopsided.body, places[3], turned[3])
-    np.testing.assert_allclose(sole_points(mirrored.body, other_places[3], other_turned[3]), soles[::-1] * FLIP, atol=1e-12)
+    np.testing.assert_allclose(
+        sole_points(mirrored.body, other_places[3], other_turned[3]), soles[::-1] * FLIP, atol=1e-12
+    )
 
 
 def test_a_mirror_in_a_mirror_is_the_clip(lopsided):
@@ -59,7 +63,9 @@ def test_its_loop_walks_on_to_the_other_side(library_clip):
         expected = Pose(pose.root_m * FLIP, pose.rotations)
         np.testing.assert_allclose(sample(mirrored, time_s).root_m, expected.root_m, atol=1e-12)
     planted = [list(ANKLES)[side] for side in np.flatnonzero(walk.planted[10])]
-    assert [MIRRORED[ankle] for ankle in planted][::-1] == [list(ANKLES)[s] for s in np.flatnonzero(mirrored.planted[10])]
+    assert [MIRRORED[ankle] for ankle in planted][::-1] == [
+        list(ANKLES)[s] for s in np.flatnonzero(mirrored.planted[10])
+    ]
 
 
 def test_the_embedded_clip_mirrored_still_stands():

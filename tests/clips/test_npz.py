@@ -92,7 +92,10 @@ BREAKS = [
     (put("body_positions", lambda p: p[:0]), "found body_positions of shape (0, 15, 3)"),
     (put("body_rotations", lambda q: q[..., :3]), "found body_rotations of shape (6, 15, 3)"),
     (put("body_rotations", lambda q: q * 1.1), "expected unit quaternions"),
-    (put("body_positions", lambda p: np.where(np.arange(6)[:, None, None] == 3, np.nan, p)), "not finite in frame 3 at"),
+    (
+        put("body_positions", lambda p: np.where(np.arange(6)[:, None, None] == 3, np.nan, p)),
+        "not finite in frame 3 at",
+    ),
 ]
 
 

@@ -1,4 +1,5 @@
-"""One trial in both formats is one motion: the strongest check there is of two independent readers and of the mapping."""
+"""One trial in both formats is one motion: the strongest check there is of two independent readers and of the
+mapping."""
 
 from __future__ import annotations
 
@@ -71,7 +72,8 @@ def test_elbows_and_knees_are_hinges_about_their_own_y(pair):
 
 
 def test_the_retargeted_copies_move_alike(shared_mocap):
-    """The Daz copies are other bodies, in centimetres and without toes: directions of limbs agree to about ten degrees."""
+    """The Daz copies are other bodies, in centimetres and without toes: directions of limbs agree to about ten
+    degrees."""
     for name, limit_deg in (("11_01", 12.0), ("135_04", 12.0)):
         amc = import_clip(shared_mocap / "asfamc" / f"{name}.amc")
         daz = import_clip(shared_mocap / "bvh" / f"{name}_daz.bvh")
@@ -80,7 +82,10 @@ def test_the_retargeted_copies_move_alike(shared_mocap):
         directions = []
         for clip, first in ((amc, 3), (daz, 0)):
             places = joints_of(clip.body, clip.pose)[0][first:]
-            bones = [places[:, b] - places[:, a] for a, b in zip([*HIPS, *KNEES, *SHOULDERS], [*KNEES, *ANKLES, *ELBOWS], strict=True)]
+            bones = [
+                places[:, b] - places[:, a]
+                for a, b in zip([*HIPS, *KNEES, *SHOULDERS], [*KNEES, *ANKLES, *ELBOWS], strict=True)
+            ]
             directions.append(np.stack([bone / np.linalg.norm(bone, axis=-1, keepdims=True) for bone in bones], axis=1))
         frames = min(len(d) for d in directions)
         inner = np.sum(directions[0][:frames] * directions[1][:frames], axis=-1)

@@ -112,7 +112,9 @@ def test_the_pose_turns_with_the_path():
     clip = sway()
     turning = replace(clip, loop=Loop(3.0, 483.0, 3.0, 1.0, 0.0, 1.0))
     before, after = sample(turning, 1.0), sample(turning, 9.0)
-    assert float(rotations.heading(after.rotations[PELVIS]) - rotations.heading(before.rotations[PELVIS])) == pytest.approx(1.0)
+    assert float(
+        rotations.heading(after.rotations[PELVIS]) - rotations.heading(before.rotations[PELVIS])
+    ) == pytest.approx(1.0)
     expected = rotations.rotate(rotations.about_z(1.0), before.root_m) + [1.0, 0.0, 0.0]
     np.testing.assert_allclose(after.root_m, expected, atol=1e-12)
     np.testing.assert_allclose(after.rotations[1:], before.rotations[1:], atol=1e-12)
@@ -129,4 +131,6 @@ def test_sampling_is_the_same_to_the_last_bit():
     clip = sway()
     for time_s in (0.0, 3.7, 8.04, 1000.123):
         first, second = sample(clip, time_s), sample(clip, time_s)
-        assert first.root_m.tobytes() + first.rotations.tobytes() == second.root_m.tobytes() + second.rotations.tobytes()
+        assert (
+            first.root_m.tobytes() + first.rotations.tobytes() == second.root_m.tobytes() + second.rotations.tobytes()
+        )

@@ -1,11 +1,12 @@
-"""All the real motion capture there is: it stands upright on the floor, its limbs bend the right way, its feet stand when seen to.
+"""All the real motion capture there is: it stands upright on the floor, its limbs bend the right way, its feet stand
+when seen to.
 
-The ranges of frames in which feet were seen to stand were found by another program and looked at as pictures; they are good
-to about five frames, in the file's own numbering.
-"""
+The ranges of frames in which feet were seen to stand were found by another program and looked at as pictures; they are
+good to about five frames, in the file's own numbering."""
 
 from __future__ import annotations
 
+import functools
 import re
 
 import numpy as np
@@ -18,8 +19,24 @@ from engine.clips.contacts import runs
 from engine.clips.importing import import_clip
 from engine.maths import rotations
 
-AMC = ["01_01", "02_01", "02_03", "02_05", "05_02", "07_04", "11_01", "135_04", "14_02", "14_31", "14_37", "16_01", "16_08",
-       "16_17", "16_33", "49_18"]  # fmt: skip
+AMC = [
+    "01_01",
+    "02_01",
+    "02_03",
+    "02_05",
+    "05_02",
+    "07_04",
+    "11_01",
+    "135_04",
+    "14_02",
+    "14_31",
+    "14_37",
+    "16_01",
+    "16_08",
+    "16_17",
+    "16_33",
+    "49_18",
+]
 BVH = ["01_01", "02_01", "07_04", "11_01_daz", "135_04_daz", "13_26"]
 FILES = [f"asfamc/{name}.amc" for name in AMC] + [f"bvh/{name}.bvh" for name in BVH]
 # a foot that rolls over its edge (karate) dips half its width
@@ -27,9 +44,13 @@ SOLE_WITHIN_M = 0.04
 TOLERANCE_FRAMES = 5
 
 
-@pytest.fixture(scope="module", params=FILES)
+# every file is imported once, whichever tests of it run in this process
+imported = functools.cache(import_clip)
+
+
+@pytest.fixture(params=FILES)
 def real(request, shared_mocap):
-    return request.param, import_clip(shared_mocap / request.param), shared_mocap
+    return request.param, imported(shared_mocap / request.param), shared_mocap
 
 
 def test_it_is_a_person_standing_up(real):
@@ -105,7 +126,7 @@ def test_the_ends_of_steps_are_found_to_five_frames(shared_mocap):
     """Of the ends of all single-support ranges seen, over every file: half within 2 frames, nine in ten within 8."""
     off = []
     for name in FILES:
-        clip = import_clip(shared_mocap / name)
+        clip = imported(shared_mocap / name)
         for feet, first, last in ranges_seen(shared_mocap / "README.md", name, clip.report.rest_frames_dropped):
             if feet == (True, True):
                 continue

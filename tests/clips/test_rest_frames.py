@@ -1,4 +1,5 @@
-"""A T-pose put in front of a clip is dropped, with the smear out of it; a clip that merely begins with its arms out is not."""
+"""A T-pose put in front of a clip is dropped, with the smear out of it; a clip that merely begins with its arms out is
+not."""
 
 from __future__ import annotations
 
