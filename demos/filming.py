@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import math
 from collections.abc import Callable, Collection, Iterator, Sequence
 from typing import NamedTuple
@@ -82,24 +83,34 @@ def moment(world, alpha: float, ghosts: Collection[str]) -> Moment:
     return Moment(time_s, scene, np.array([x, y, LOOK_AT_M]), phase)
 
 
-def pictures(seen: Iterator[Moment] | Sequence[Moment], shot: Shot, captions: bool = True) -> Iterator[np.ndarray]:
+@contextlib.contextmanager
+def studio() -> Iterator[Renderer]:
+    """A renderer without a display. One for all the pictures of a process: drivers do not like two contexts in one."""
+    with make_context(headless=True, size=(16, 16)) as context:
+        yield Renderer(context)
+
+
+def film_pictures(renderer: Renderer, seen: Iterator[Moment], shot: Shot) -> Iterator[np.ndarray]:
     """Draws the moments one after the other, (H, W, 3) uint8 each; the camera goes along with the character."""
     camera: Camera | None = None
-    with make_context(headless=True, size=shot.size_px) as context:
-        renderer = Renderer(context)
-        for now in seen:
-            if camera is None:
-                camera = orbit_camera(now.centre_m, *shot.camera)
-            camera = follow(camera, now.centre_m, 1.0 / shot.fps, FOLLOW_HALF_LIFE_S)
-            if captions:
-                now.scene.captions.append(("top-left", f"{now.time_s:.2f} s  {now.phase.replace('_', ' ')}"))
-            renderer.draw(now.scene, camera)
-            yield renderer.read_rgb()
+    for now in seen:
+        camera = follow(camera or _camera_at(now, shot), now.centre_m, 1.0 / shot.fps, FOLLOW_HALF_LIFE_S)
+        now.scene.captions.append(("top-left", f"{now.time_s:.2f} s  {now.phase.replace('_', ' ')}"))
+        renderer.draw(now.scene, camera, shot.size_px)
+        yield renderer.read_rgb()
 
 
-def strip_pictures(chosen: Sequence[Moment], shot: Shot) -> list[np.ndarray]:
+def strip_pictures(renderer: Renderer, chosen: Sequence[Moment], shot: Shot) -> list[np.ndarray]:
     """Each moment as a picture of its own, the camera right at the character."""
-    return list(pictures(chosen, shot._replace(fps=1e-3), captions=False))
+    drawn = []
+    for now in chosen:
+        renderer.draw(now.scene, _camera_at(now, shot), shot.size_px)
+        drawn.append(renderer.read_rgb())
+    return drawn
+
+
+def _camera_at(now: Moment, shot: Shot) -> Camera:
+    return orbit_camera(now.centre_m, *shot.camera)
 
 
 def choose(seen: Sequence[Moment], count: int, from_s: float | None, to_s: float | None) -> list[Moment]:

@@ -29,7 +29,7 @@ def register(subparsers) -> None:
 
 
 def run(args: argparse.Namespace) -> None:
-    from demos.filming import placed_for
+    from demos.filming import placed_for, studio
     from demos.running import open_scenario, start
     from engine.render.capture import capture_kind
 
@@ -38,24 +38,25 @@ def run(args: argparse.Namespace) -> None:
     kind = capture_kind(args.output)
     simulation = start(*open_scenario(args.scenario, args.set))
     shot = placed_for(shot, simulation.scenario)
-    if kind == "png":
-        write_strip(args.output, simulation, shot, args.frames, args.columns, args.from_s, args.to_s)
-    else:
-        write_film(args.output, simulation.world, simulation.step, simulation.ticks, shot)
+    with studio() as renderer:
+        if kind == "png":
+            write_strip(renderer, args.output, simulation, shot, args.frames, args.columns, args.from_s, args.to_s)
+        else:
+            write_film(renderer, args.output, simulation.world, simulation.step, simulation.ticks, shot)
     say(f"wrote {args.output}")
 
 
-def write_film(output, world, advance, ticks: int, shot) -> None:
+def write_film(renderer, output, world, advance, ticks: int, shot) -> None:
     """The whole run as moving pictures."""
-    from demos.filming import frame_count, moments, pictures
+    from demos.filming import film_pictures, frame_count, moments
     from demos.running import with_progress
     from engine.render.capture import write_film
 
-    drawn = pictures(moments(world, advance, ticks, shot), shot)
+    drawn = film_pictures(renderer, moments(world, advance, ticks, shot), shot)
     write_film(output, with_progress(drawn, "drawing", frame_count(ticks, shot)), shot.fps)
 
 
-def write_strip(output, simulation, shot, frames=None, columns=None, from_s=None, to_s=None) -> None:
+def write_strip(renderer, output, simulation, shot, frames=None, columns=None, from_s=None, to_s=None) -> None:
     """Chosen moments of the run side by side; see `choose` for the span."""
     from demos.filming import choose, moments, strip_pictures
     from engine.render.capture import write_filmstrip
@@ -63,4 +64,4 @@ def write_strip(output, simulation, shot, frames=None, columns=None, from_s=None
     seen = list(moments(simulation.world, simulation.step, simulation.ticks, shot._replace(fps=120.0)))
     chosen = choose(seen, frames or STRIP_FRAMES, from_s, to_s)
     captions = [f"{now.time_s:.2f} s\n{now.phase.replace('_', ' ')}" for now in chosen]
-    write_filmstrip(output, strip_pictures(chosen, shot), captions, columns=columns)
+    write_filmstrip(output, strip_pictures(renderer, chosen, shot), captions, columns=columns)

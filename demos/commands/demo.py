@@ -72,7 +72,7 @@ def _window(args: argparse.Namespace) -> None:
 
 def _pictures(args: argparse.Namespace) -> None:
     from demos.commands.capture import write_film, write_strip
-    from demos.filming import placed_for
+    from demos.filming import placed_for, studio
     from engine.render.capture import capture_kind
 
     shot = shot_of(args)
@@ -83,9 +83,10 @@ def _pictures(args: argparse.Namespace) -> None:
     capture_kind(strip)
     capture_kind(film)
     print(f"no display here; drawing {strip} and {film}", flush=True)
-    write_strip(strip, simulation, shot._replace(size_px=STRIP_SIZE))
-    simulation, _ = _simulation(args)
-    write_film(film, simulation.world, simulation.step, simulation.ticks, shot)
+    with studio() as renderer:
+        write_strip(renderer, strip, simulation, shot._replace(size_px=STRIP_SIZE))
+        simulation, _ = _simulation(args)  # once more from the start
+        write_film(renderer, film, simulation.world, simulation.step, simulation.ticks, shot)
     print(f"pictures: {strip} (a filmstrip) and {film} (a film)")
 
 

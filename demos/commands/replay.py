@@ -37,10 +37,11 @@ def run(args: argparse.Namespace) -> None:
     simulation, recorder = replayed(journal, args.file)
     if args.output:
         from demos.commands.capture import write_film
-        from demos.filming import placed_for
+        from demos.filming import placed_for, studio
 
         shot = placed_for(shot, simulation.scenario)
-        write_film(args.output, simulation.world, recorder.advance, ticks, shot)
+        with studio() as renderer:
+            write_film(renderer, args.output, simulation.world, recorder.advance, ticks, shot)
         say(f"wrote {args.output}")
         return
     for _ in with_progress(range(ticks), "simulating", ticks):
