@@ -1,7 +1,7 @@
 """What a file's rest pose says: where the canonical joints lie in it and how their frames are aligned with it.
 
-The canonical rest is standing with the arms hanging, palms in, legs straight, feet ahead; a file's may be a T-pose, legs
-apart. An *alignment* is the constant turn from the one to the other, joint by joint.
+The canonical rest is standing with the arms hanging, palms in, legs straight, feet ahead; a file's may be a T-pose,
+legs apart. An *alignment* is the constant turn from the one to the other, joint by joint.
 """
 
 from __future__ import annotations

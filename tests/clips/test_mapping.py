@@ -81,8 +81,10 @@ def test_a_hinge_that_is_off_in_the_file_is_put_right_without_moving_a_joint(tmp
     assert clip.report.position_error_m < 1e-6
 
 
-@pytest.mark.parametrize(("unit", "z_up"), [(1.0, True), (100.0, False), (100.0, True), (1000.0, False), (39.3701, False),
-                                            (0.45 / 0.0254, False)])  # fmt: skip
+@pytest.mark.parametrize(
+    ("unit", "z_up"),
+    [(1.0, True), (100.0, False), (100.0, True), (1000.0, False), (39.3701, False), (0.45 / 0.0254, False)],
+)
 def test_unit_and_up_axis_make_no_difference(tmp_path, unit, z_up):
     poses, roots = swing_arms(40), np.cumsum(np.full((40, 3), [0.002, 0.0, 0.01]), axis=0) + [0.3, 0.94, 0.2]
     plain = import_clip(write_person(tmp_path / "plain.bvh", poses, roots=roots))
