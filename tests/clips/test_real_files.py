@@ -19,8 +19,11 @@ from engine.clips.contacts import runs
 from engine.clips.importing import import_clip
 from engine.maths import rotations
 
-AMC = ("01_01 02_01 02_03 02_05 05_02 07_04 11_01 135_04 14_02 14_31 14_37 16_01 16_08 16_17 16_33 49_18").split()
-BVH = "01_01 02_01 07_04 11_01_daz 135_04_daz 13_26".split()
+# fmt: off
+AMC = ["01_01", "02_01", "02_03", "02_05", "05_02", "07_04", "11_01", "135_04",
+       "14_02", "14_31", "14_37", "16_01", "16_08", "16_17", "16_33", "49_18"]
+BVH = ["01_01", "02_01", "07_04", "11_01_daz", "135_04_daz", "13_26"]
+# fmt: on
 FILES = [f"asfamc/{name}.amc" for name in AMC] + [f"bvh/{name}.bvh" for name in BVH]
 # a foot that rolls over its edge (karate) dips half its width
 SOLE_WITHIN_M = 0.04
