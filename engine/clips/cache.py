@@ -8,7 +8,7 @@ from __future__ import annotations
 import contextlib
 import json
 import os
-import secrets
+import threading
 import zipfile
 from collections.abc import Callable
 from dataclasses import asdict
@@ -69,7 +69,7 @@ def save(clip: Clip) -> None:
 def write_whole(path: Path, write: Callable[[IO[bytes]], object]) -> None:
     """Writes a file so that its name never stands for half of it: `write` gets an open binary file beside it. OSError
     passes on."""
-    beside = path.with_name(f".{path.name}.{os.getpid()}.{secrets.token_hex(4)}")
+    beside = path.with_name(f".{path.name}.{os.getpid()}.{threading.get_ident()}")
     try:
         with open(beside, "xb") as file:
             write(file)
