@@ -78,7 +78,7 @@ class Renderer:
 
     def _upload(self, scene: Scene, camera: Camera, size_px, shadow: Shadow | None) -> None:
         self.frame.write(frame_bytes(scene, camera, size_px, shadow))
-        self.figures.upload(scene.figures, camera.eye)
+        self.figures.upload(scene.figures, camera, size_px)
         self.balls.upload(scene.balls, camera.eye)
         self.ground.upload(scene.floor, scene.floor.centre_m or camera.target[:2], shadow)
         self.decals.upload(scene)

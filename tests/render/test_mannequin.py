@@ -62,9 +62,10 @@ def test_burying_drops_only_what_lies_inside():
 
 
 @pytest.mark.parametrize("body", [standard_body(), standard_body(1.55, "female"), standard_body(1.95)])
-def test_every_part_is_closed_and_where_its_field_says(body):
+@pytest.mark.parametrize("coarser", [1.0, 2.0])
+def test_every_part_is_closed_and_where_its_field_says(body, coarser):
     for part in mannequin_parts(body):
-        piece = mesh(part.shape, part.cell_m)
+        piece = mesh(part.shape, min(coarser * part.cell_m, part.coarsest_m))
         assert _closed(piece)
         assert _area_and_volume(piece)[1] > 0
         assert np.abs(part.shape.field(piece.vertices)).max() < 2e-4
@@ -125,6 +126,14 @@ def test_a_longer_forearm_makes_a_longer_forearm_and_nothing_else():
     for joint in range(sk.JOINT_COUNT):
         spans = [np.ptp(m.vertices[m.tags[:, 0] == joint], axis=0)[2] for m in (before, longer)]
         assert spans[1] == pytest.approx(spans[0] * (1.2 if joint == sk.LEFT_ELBOW else 1.0), rel=0.06)
+
+
+def test_coarser_meshes_have_far_fewer_triangles_and_the_same_outline():
+    fine, coarse = (mannequin_mesh(standard_body(), coarser) for coarser in (1.0, 1.8))
+    assert len(coarse.triangles) < 0.4 * len(fine.triangles)
+    for joint in range(sk.JOINT_COUNT):
+        spans = [np.ptp(m.vertices[m.tags[:, 0] == joint], axis=0) for m in (fine, coarse)]
+        assert spans[1] == pytest.approx(spans[0], abs=0.009)
 
 
 def test_joints_have_balls_that_the_next_bone_turns_in():

@@ -5,12 +5,17 @@ from __future__ import annotations
 import numpy as np
 
 from engine.body.skeleton import JOINT_COUNT, Body
+from engine.render.camera import Camera, half_tangents
 from engine.render.gpu import Instances, make_pass
 from engine.render.mannequin import mannequin_mesh
 from engine.render.scene import Figure
 
 SOLID, SHADOW, GHOST = range(3)
 POSE_UNIT, SHADOW_UNIT = 0, 1
+# from so many pixels a metre on, cells of the mesh grow by so much
+DETAIL = ((320.0, 1.0), (120.0, 1.4), (0.0, 1.8))
+
+MeshKey = tuple[bytes, float]  # what the body looks like, how coarse
 
 
 class FigurePass:
@@ -22,29 +27,28 @@ class FigurePass:
         for program in self.programs:
             program["joints"] = POSE_UNIT
         self.programs[SOLID]["shadow_map"] = SHADOW_UNIT
-        self.meshes: dict[bytes, Instances] = {}
+        self.meshes: dict[MeshKey, Instances] = {}
         self.poses = None
         self.solid: list[tuple[Instances, int]] = []
         self.ghosts: list[tuple[Instances, int]] = []
 
-    def upload(self, figures: list[Figure], eye_m) -> None:
-        """Solid figures are grouped by body; ghosts sorted from far to near, so that blending composes."""
+    def upload(self, figures: list[Figure], camera: Camera, size_px) -> None:
+        """Solid figures are grouped by mesh; ghosts sorted from far to near, so that blending composes."""
         solid = [figure for figure in figures if figure.alpha >= 1.0]
-        ghosts = sorted(
-            (figure for figure in figures if 0.0 < figure.alpha < 1.0), key=lambda figure: -_distance(figure, eye_m)
-        )
-        groups: dict[bytes, list[tuple[int, Figure, bool]]] = {}
+        ghosts = [figure for figure in figures if 0.0 < figure.alpha < 1.0]
+        ghosts.sort(key=lambda figure: -_distance_m(figure, camera))
+        groups: dict[MeshKey, list[tuple[int, Figure]]] = {}
         for row, figure in enumerate(solid + ghosts):
-            groups.setdefault(body_key(figure.body), []).append((row, figure, row >= len(solid)))
+            key = (body_key(figure.body), coarseness(_distance_m(figure, camera), camera, size_px))
+            groups.setdefault(key, []).append((row, figure))
         self._upload_poses(solid + ghosts)
         self.solid, placed = [], {}
         for key, members in groups.items():
             instances = self._mesh(key, members[0][1].body)
-            instances.upload(
-                np.array([(*linear(figure.colour), figure.alpha, row) for row, figure, _ in members], "f4")
-            )
-            self.solid.append((instances, sum(not ghost for *_, ghost in members)))
-            placed.update({row: (instances, place) for place, (row, _, ghost) in enumerate(members) if ghost})
+            rows = [(*linear(figure.colour), figure.alpha, row) for row, figure in members]
+            instances.upload(np.array(rows, "f4"))
+            self.solid.append((instances, sum(row < len(solid) for row, _ in members)))
+            placed.update({row: (instances, place) for place, (row, _) in enumerate(members) if row >= len(solid)})
         self.ghosts = [placed[row] for row in sorted(placed)]
 
     def draw_solid(self) -> None:
@@ -67,9 +71,9 @@ class FigurePass:
         if self.poses is not None:
             self.poses.use(POSE_UNIT)
 
-    def _mesh(self, key: bytes, body: Body) -> Instances:
+    def _mesh(self, key: MeshKey, body: Body) -> Instances:
         if key not in self.meshes:
-            mesh = mannequin_mesh(body)
+            mesh = mannequin_mesh(body, coarser=key[1])
             buffer = self.gl.buffer(np.hstack([mesh.vertices, mesh.normals, mesh.tags]).astype("f4").tobytes())
             index = self.gl.buffer(mesh.triangles.astype("i4").tobytes())
             layout = (buffer, "3f 3f 2f", "vertex_m", "normal", "tag")
@@ -111,5 +115,11 @@ def linear(colour) -> np.ndarray:
     return np.where(colour <= 0.04045, colour / 12.92, ((colour + 0.055) / 1.055) ** 2.4)
 
 
-def _distance(figure: Figure, eye_m) -> float:
-    return float(np.linalg.norm(np.subtract(figure.positions[0], eye_m)))
+def coarseness(distance_m: float, camera: Camera, size_px) -> float:
+    """How much larger triangles may be at that distance before their corners could be seen."""
+    px_per_m = 0.5 * size_px[1] / (max(distance_m, 0.1) * half_tangents(camera, size_px)[1])
+    return next(coarser for least_px_per_m, coarser in DETAIL if px_per_m >= least_px_per_m)
+
+
+def _distance_m(figure: Figure, camera: Camera) -> float:
+    return float(np.linalg.norm(np.subtract(figure.positions[0], camera.eye)))

@@ -20,7 +20,7 @@ def arm_parts(body: Body, side: int) -> list[Part]:
         Part(elbow, JOINT, ball((0, 0, 0), ELBOW_BALL), 0.0135),
         Part(elbow, SHELL, _forearm(body.offset_m[wrist], outwards(side)), 0.0145),
         Part(wrist, JOINT, ball((0, 0, 0), WRIST_BALL), 0.011),
-        Part(wrist, SHELL, _hand(body.palm_m[side], body.fingertip_m[side], -outwards(side)), 0.0085),
+        Part(wrist, SHELL, _hand(body.palm_m[side], body.fingertip_m[side], -outwards(side)), 0.0085, 0.0125),
     ]
 
 

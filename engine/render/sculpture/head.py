@@ -27,8 +27,8 @@ def head_parts(body: Body) -> list[Part]:
     ears = both_sides(ellipsoid(at(-0.008, 0.074, 0.118), _large(0.019, 0.010, 0.030)))
     head = blend(0.02, blend(0.03, skull, face, jaw), brow)
     return [
-        Part(sk.HEAD, SHELL, blend(0.012, head, nose, ears), 0.0118),
-        Part(sk.HEAD, VISOR, _visor(head, crown), 0.006),
+        Part(sk.HEAD, SHELL, blend(0.012, head, nose, ears), 0.0118, 0.018),
+        Part(sk.HEAD, VISOR, _visor(head, crown), 0.006, 0.009),
     ]
 
 

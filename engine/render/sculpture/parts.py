@@ -19,6 +19,7 @@ class Part(NamedTuple):
     material: int
     shape: Shape
     cell_m: float  # of the grid it is meshed on: about a fifth of its radius
+    coarsest_m: float = np.inf  # cells beyond which something thin would break up
 
 
 def cut(limb: Shape, bone_m: np.ndarray, short_m: float, round_m: float, start_m: float | None = None) -> Shape:
