@@ -133,7 +133,7 @@ def test_coarser_meshes_have_far_fewer_triangles_and_the_same_outline():
     assert len(coarse.triangles) < 0.4 * len(fine.triangles)
     for joint in range(sk.JOINT_COUNT):
         spans = [np.ptp(m.vertices[m.tags[:, 0] == joint], axis=0) for m in (fine, coarse)]
-        assert spans[1] == pytest.approx(spans[0], abs=0.009)
+        assert spans[1] == pytest.approx(spans[0], rel=0.07)
 
 
 def test_joints_have_balls_that_the_next_bone_turns_in():
