@@ -13,15 +13,15 @@ from engine.maths import quaternion, vector
 def joints_into(offset_m, root_m, rotations, positions, orientations):
     """Writes where every joint is and how it is turned in the world: (J, 3) and (J, 4). Parents come first in the table."""
     for j in range(JOINT_COUNT):
-        parent = PARENT[j]
+        parent, local = PARENT[j], quaternion.at(rotations, j)
         if parent < 0:
-            p = (root_m[0], root_m[1], root_m[2])
-            q = (rotations[j, 0], rotations[j, 1], rotations[j, 2], rotations[j, 3])
+            p, q = (root_m[0], root_m[1], root_m[2]), local
         else:
-            p = vector.add(positions[parent], quaternion.rotate(orientations[parent], offset_m[j]))
-            q = quaternion.multiply(orientations[parent], rotations[j])
-        positions[j, 0], positions[j, 1], positions[j, 2] = p
-        orientations[j, 0], orientations[j, 1], orientations[j, 2], orientations[j, 3] = q
+            turned = quaternion.at(orientations, parent)
+            p = vector.add(vector.at(positions, parent), quaternion.rotate(turned, vector.at(offset_m, j)))
+            q = quaternion.multiply(turned, local)
+        vector.put(positions, j, p)
+        quaternion.put(orientations, j, q)
 
 
 @njit(cache=True)
@@ -31,7 +31,8 @@ def centre_of_mass(body, positions, orientations):
     for part in range(len(body.part_mass_kg)):
         joint = body.part_joint[part]
         mass = body.part_mass_kg[part]
-        com = vector.add(positions[joint], quaternion.rotate(orientations[joint], body.part_com_m[part]))
+        centre = quaternion.rotate(quaternion.at(orientations, joint), vector.at(body.part_com_m, part))
+        com = vector.add(vector.at(positions, joint), centre)
         x += mass * com[0]
         y += mass * com[1]
         z += mass * com[2]

@@ -26,24 +26,21 @@ DOWN, CARRIED = 0, 1
 
 
 @njit(cache=True)
-def _put(rows, row, value):
-    for k in range(len(value)):
-        rows[row, k] = value[k]
-
-
-@njit(cache=True)
 def place_children(offset_m, rotations, positions, orientations, joint, child):
     """Forward kinematics of one joint from its parent: writes the child's position and orientation."""
-    _put(positions, child, vector.add(positions[joint], quaternion.rotate(orientations[joint], offset_m[child])))
-    _put(orientations, child, quaternion.multiply(orientations[joint], rotations[child]))
+    turned = quaternion.at(orientations, joint)
+    bone = quaternion.rotate(turned, vector.at(offset_m, child))
+    vector.put(positions, child, vector.add(vector.at(positions, joint), bone))
+    quaternion.put(orientations, child, quaternion.multiply(turned, quaternion.at(rotations, child)))
 
 
 @njit(cache=True)
 def turn_end_to(offset_m, rotations, positions, orientations, parent, joint, world_orientation, child):
     """Gives a wrist or ankle a world orientation: its local rotation, and the toe (child, or -1) that hangs on it."""
-    _put(orientations, joint, quaternion.normalise(world_orientation))
-    local = quaternion.multiply(quaternion.conjugate(orientations[parent]), orientations[joint])
-    _put(rotations, joint, quaternion.normalise(local))
+    turned = quaternion.normalise(world_orientation)
+    local = quaternion.multiply(quaternion.conjugate(quaternion.at(orientations, parent)), turned)
+    quaternion.put(orientations, joint, turned)
+    quaternion.put(rotations, joint, quaternion.normalise(local))
     if child >= 0:
         place_children(offset_m, rotations, positions, orientations, joint, child)
 
@@ -53,7 +50,8 @@ def _apply(offset_m, rotations, positions, orientations, parent, upper, middle, 
     """Writes both turns back: local rotations of upper and middle joint, positions and orientations down to the end."""
     _turn_local(rotations, orientations, parent, upper, limb)
     _turn_local(rotations, orientations, upper, middle, lower)
-    _put(orientations, upper, quaternion.normalise(quaternion.multiply(orientations[parent], rotations[upper])))
+    turned = quaternion.multiply(quaternion.at(orientations, parent), quaternion.at(rotations, upper))
+    quaternion.put(orientations, upper, quaternion.normalise(turned))
     place_children(offset_m, rotations, positions, orientations, upper, middle)
     place_children(offset_m, rotations, positions, orientations, middle, end)
 
@@ -61,27 +59,22 @@ def _apply(offset_m, rotations, positions, orientations, parent, upper, middle, 
 @njit(cache=True)
 def _turn_local(rotations, orientations, parent, joint, world_turn):
     """local = conj(P) T P * local: a world turn T about the joint, seen from its parent. No turn, no change."""
-    seen = quaternion.multiply(
-        quaternion.multiply(quaternion.conjugate(orientations[parent]), world_turn), orientations[parent]
-    )
-    _put(rotations, joint, quaternion.normalise(quaternion.multiply(seen, rotations[joint])))
-
-
-@njit(cache=True)
-def _point(rows, j):
-    return (rows[j, 0], rows[j, 1], rows[j, 2])
+    outer = quaternion.at(orientations, parent)
+    seen = quaternion.multiply(quaternion.multiply(quaternion.conjugate(outer), world_turn), outer)
+    local = quaternion.multiply(seen, quaternion.at(rotations, joint))
+    quaternion.put(rotations, joint, quaternion.normalise(local))
 
 
 @njit(cache=True)
 def elbow_axis(orientations, side):
     """The elbow's world axis of flexion: -Y of the upper arm."""
-    return quaternion.rotate(orientations[SHOULDERS[side]], (0.0, -1.0, 0.0))
+    return quaternion.rotate(quaternion.at(orientations, SHOULDERS[side]), (0.0, -1.0, 0.0))
 
 
 @njit(cache=True)
 def knee_axis(orientations, side):
     """The knee's world axis of flexion: +Y of the thigh."""
-    return quaternion.rotate(orientations[HIPS[side]], (0.0, 1.0, 0.0))
+    return quaternion.rotate(quaternion.at(orientations, HIPS[side]), (0.0, 1.0, 0.0))
 
 
 @njit(cache=True)
@@ -92,7 +85,7 @@ def arm_zero(orientations, side, reference, n):
     CARRIED: the same in the plane straight ahead (back for a hanging arm, down for one held forward, forward for one
     held up), carried elsewhere; it turns over only behind and above the shoulder, where no arm goes: fit for blends.
     """
-    clavicle = orientations[CLAVICLES[side]]
+    clavicle = quaternion.at(orientations, CLAVICLES[side])
     if reference == DOWN:
         return quaternion.rotate(clavicle, (0.0, 0.0, -1.0))
     h = math.sqrt(0.5)
@@ -107,7 +100,7 @@ def knee_zero(orientations, n):
     axis does when the heel comes up. Carried from straight down, it is forward for a standing or a spread leg, up for
     one held forward, down for one held back, and turns over only for a leg straight up.
     """
-    pelvis = orientations[PELVIS]
+    pelvis = quaternion.at(orientations, PELVIS)
     return carried_zero(quaternion.rotate(pelvis, (0.0, 0.0, -1.0)), quaternion.rotate(pelvis, (1.0, 0.0, 0.0)), n)
 
 
@@ -120,17 +113,17 @@ def side_sign(side):
 @njit(cache=True)
 def arm_swivel(positions, orientations, side, reference=DOWN):
     """The swivel of an arm as it is now, radians, positive away from the body."""
-    root, end = _point(positions, SHOULDERS[side]), _point(positions, WRISTS[side])
+    root, end = vector.at(positions, SHOULDERS[side]), vector.at(positions, WRISTS[side])
     n = vector.unit(vector.subtract(end, root), (0.0, 0.0, -1.0))
     zero = arm_zero(orientations, side, reference, n)
-    mid, axis = _point(positions, ELBOWS[side]), elbow_axis(orientations, side)
+    mid, axis = vector.at(positions, ELBOWS[side]), elbow_axis(orientations, side)
     return swivel_of(root, mid, end, axis, zero, side_sign(side))
 
 
 @njit(cache=True)
 def leg_swivel(positions, orientations, side):
     """The swivel of a leg as it is now, radians, positive away from the other leg."""
-    root, mid, end = _point(positions, HIPS[side]), _point(positions, KNEES[side]), _point(positions, ANKLES[side])
+    root, mid, end = vector.at(positions, HIPS[side]), vector.at(positions, KNEES[side]), vector.at(positions, ANKLES[side])
     n = vector.unit(vector.subtract(end, root), (0.0, 0.0, -1.0))
     return swivel_of(root, mid, end, knee_axis(orientations, side), knee_zero(orientations, n), side_sign(side))
 
@@ -157,10 +150,10 @@ def arm_onto(
 ):
     """apply_arm for hot kernels that cannot hand a whole body on; greatest_rad is the most the elbow flexes."""
     shoulder, elbow, wrist = SHOULDERS[side], ELBOWS[side], WRISTS[side]
-    root = _point(positions, shoulder)
+    root = vector.at(positions, shoulder)
     n = vector.unit(vector.subtract(target, root), (0.0, 0.0, -1.0))
     limb, lower, miss_m = solve_limb(
-        root, _point(positions, elbow), _point(positions, wrist), elbow_axis(orientations, side), target,
+        root, vector.at(positions, elbow), vector.at(positions, wrist), elbow_axis(orientations, side), target,
         arm_zero(orientations, side, reference, n), swivel_rad, side_sign(side), greatest_rad, soft_m,
     )  # fmt: skip
     _apply(offset_m, rotations, positions, orientations, CLAVICLES[side], shoulder, elbow, wrist, limb, lower)
@@ -187,11 +180,11 @@ def leg_onto(
 ):
     """apply_leg for hot kernels, see arm_onto: greatest_rad is the most the knee flexes."""
     hip, knee, ankle = HIPS[side], KNEES[side], ANKLES[side]
-    root = _point(positions, hip)
+    root = vector.at(positions, hip)
     foot = (foot_orientation[0], foot_orientation[1], foot_orientation[2], foot_orientation[3])
     n = vector.unit(vector.subtract(target, root), (0.0, 0.0, -1.0))
     limb, lower, miss_m = solve_limb(
-        root, _point(positions, knee), _point(positions, ankle), knee_axis(orientations, side), target,
+        root, vector.at(positions, knee), vector.at(positions, ankle), knee_axis(orientations, side), target,
         knee_zero(orientations, n), swivel_rad, side_sign(side), greatest_rad, soft_m,
     )  # fmt: skip
     _apply(offset_m, rotations, positions, orientations, PELVIS, hip, knee, ankle, limb, lower)

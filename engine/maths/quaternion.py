@@ -15,6 +15,21 @@ IDENTITY = (1.0, 0.0, 0.0, 0.0)
 
 
 @njit(cache=True)
+def at(rows, row):
+    """One row of an array (N, 4) as a tuple. In a kernel `rows[row]` would be a view: counted, and a type of its own."""
+    return (rows[row, 0], rows[row, 1], rows[row, 2], rows[row, 3])
+
+
+@njit(cache=True)
+def put(rows, row, q):
+    """Writes one row of an array (N, 4)."""
+    rows[row, 0] = q[0]
+    rows[row, 1] = q[1]
+    rows[row, 2] = q[2]
+    rows[row, 3] = q[3]
+
+
+@njit(cache=True)
 def multiply(a, b):
     """The rotation b followed by the rotation a (Hamilton product)."""
     return (

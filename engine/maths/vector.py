@@ -8,6 +8,20 @@ from numba import njit
 
 
 @njit(cache=True)
+def at(rows, row):
+    """One row of an array (N, 3) as a tuple. In a kernel `rows[row]` would be a view: counted, and a type of its own."""
+    return (rows[row, 0], rows[row, 1], rows[row, 2])
+
+
+@njit(cache=True)
+def put(rows, row, a):
+    """Writes one row of an array (N, 3)."""
+    rows[row, 0] = a[0]
+    rows[row, 1] = a[1]
+    rows[row, 2] = a[2]
+
+
+@njit(cache=True)
 def add(a, b):
     return (a[0] + b[0], a[1] + b[1], a[2] + b[2])
 
