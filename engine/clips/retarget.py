@@ -17,10 +17,12 @@ from engine.body.anthropometry import stature_m
 from engine.body.footing import drop_to_reach, leg_length_m
 from engine.body.kinematics import joints_into
 from engine.body.limb_ik import apply_leg, leg_swivel
-from engine.body.skeleton import ANKLES, HIPS, JOINT_COUNT, TOES, Body, Pose
+from engine.body.skeleton import ANKLES, HIPS, JOINT_COUNT, KNEES, TOES, Body, Pose
 from engine.body.support import sole_points
 from engine.clips.clip import Clip
 from engine.maths import quaternion
+
+KNEELING, CROUCHING = 0.12, 0.35  # a knee's height in shares of the leg: it bears weight, or the foot alone does
 
 
 def retarget_clip(clip: Clip, body: Body) -> Clip:
@@ -93,18 +95,26 @@ def lowest_m(body, positions, orientations):
 def ankle_goals(old, new, scale, old_at, old_turned, at, turned, ankles_m):
     """Where the new ankles have to be, (2, 3): ball over its scaled place, lowest sole point at its scaled height.
 
-    The new feet are turned as the old ones, so all that is asked of them is where they are now."""
+    The new feet are turned as the old ones, so all that is asked of them is where they are now. As a knee comes down to
+    the floor, its leg goes over to keeping its rotations, which keep the knee there."""
     old_soles, soles = sole_points(old, old_at, old_turned), sole_points(new, at, turned)
+    legs = leg_length_m(old, 0)
     for side in range(2):
         ankle, toe = ANKLES[side], TOES[side]
-        for k in range(2):
-            ankles_m[side, k] = scale * old_at[toe, k] + at[ankle, k] - at[toe, k]
-        ankles_m[side, 2] = scale * old_soles[side, :, 2].min() + at[ankle, 2] - soles[side, :, 2].min()
+        shift = (
+            scale * old_at[toe, 0] - at[toe, 0],
+            scale * old_at[toe, 1] - at[toe, 1],
+            scale * old_soles[side, :, 2].min() - soles[side, :, 2].min(),
+        )
+        up = (old_at[KNEES[side], 2] / legs - KNEELING) / (CROUCHING - KNEELING)
+        up = min(max(up, 0.0), 1.0)
+        for k in range(3):
+            ankles_m[side, k] = at[ankle, k] + up * up * (3.0 - 2.0 * up) * shift[k]
 
 
 @njit(cache=True)
 def put_feet(body, ankles_m, root_m, rotations, positions, orientations):
-    """Leg IK of both legs onto their ankle goals, feet turned as they are; the pelvis sinks first for a leg too short."""
+    """Leg IK of both legs onto their ankle goals, feet turned as they are; the pelvis sinks for a leg too short."""
     drop = 0.0
     for side in range(2):
         drop = max(drop, drop_to_reach(body, positions[HIPS[side]], ankles_m[side], side))
