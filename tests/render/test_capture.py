@@ -10,6 +10,7 @@ import subprocess
 import sys
 from pathlib import Path
 
+import imageio_ffmpeg
 import numpy as np
 import pytest
 from PIL import Image
@@ -167,7 +168,6 @@ def test_an_empty_folder_is_taken(tmp_path):
 
 
 def test_no_ffmpeg_is_one_line(tmp_path, monkeypatch):
-    imageio_ffmpeg = pytest.importorskip("imageio_ffmpeg")
     monkeypatch.setattr(video.shutil, "which", lambda name: None)
 
     def absent():
