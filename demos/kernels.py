@@ -10,7 +10,6 @@ from __future__ import annotations
 import contextlib
 import re
 import sys
-from collections.abc import Callable, Iterator
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
@@ -71,37 +70,31 @@ def _imported(text: str, known: dict[str, Path]) -> set[str]:
     return found & known.keys()
 
 
-def warm_up(show: Callable[[str], None]) -> int:
-    """Compiles every kernel of a whole reaction by running one on the embedded clip. Returns how many were compiled.
+def announce_compiling() -> list[str]:
+    """From now on whoever sits at a terminal sees which kernel is being compiled. Returns the names, a growing list.
 
-    `show` gets a line of progress for each; kernels that are compiled already only cost their loading.
+    Kernels that are compiled already only cost their loading and are not named.
     """
-    forget_stale()
-    with _compilations(show) as compiled:
-        from demos.warm_up import whole_reaction
-
-        whole_reaction()
-    return len(compiled)
-
-
-@contextlib.contextmanager
-def _compilations(show: Callable[[str], None]) -> Iterator[list[str]]:
-    """Collects the names of the kernels that Numba compiles inside the block, showing each as it starts."""
     from numba.core import event
 
     names: list[str] = []
 
     class Announce(event.Listener):
+        under_way = 0  # a kernel that calls others compiles them inside its own compilation
+
         def on_start(self, happening):
             function = happening.data["dispatcher"].py_func
             names.append(f"{function.__module__}.{function.__qualname__}")
-            show(f"compiling kernel {len(names)}: {names[-1]}")
+            self.under_way += 1
+            terminal_line(f"compiling kernels: {len(names)}, {names[-1]}")
 
         def on_end(self, happening):
-            pass
+            self.under_way -= 1
+            if self.under_way == 0:
+                terminal_line("")
 
-    with event.install_listener("numba:compile", Announce()):
-        yield names
+    event.register("numba:compile", Announce())
+    return names
 
 
 def terminal_line(text: str) -> None:

@@ -9,7 +9,7 @@ from typing import Any, TypeVar
 
 from behaviours.scenario import CharacterSpec, Scenario, check_scenario, load_scenario
 from behaviours.simulation import Simulation, apply_command
-from demos.kernels import forget_stale
+from demos.kernels import announce_compiling, forget_stale
 from demos.scenarios import find_scenario
 from engine.clips.clip import Clip
 from engine.clips.library import find_clip
@@ -29,6 +29,8 @@ def open_scenario(name_or_path: str, overrides: Sequence[str] = ()) -> tuple[Sce
 def start(scenario: Scenario, folder: Path, observe: bool = False) -> Simulation:
     """The scenario at its first tick, with kernels that match their sources; with `observe`, able to report."""
     forget_stale()
+    if sys.stderr.isatty():
+        announce_compiling()
 
     def find(spec: CharacterSpec) -> Clip:
         return find_clip(spec.clip, relative_to=folder, sex=spec.sex, body_mass_kg=spec.mass_kg)

@@ -1,6 +1,6 @@
-"""What is left to set up once Python's packages are there: the real clips and the compiled kernels.
+"""What is left to set up once Python's packages are there: `python -m demos.set_up clips kernels`, either or both.
 
-`./run` calls it until it has succeeded once in a cache. No network is no obstacle: the embedded clip needs none.
+`./run` calls it once for a cache and once for an environment. No network is no obstacle: the embedded clip needs none.
 """
 
 from __future__ import annotations
@@ -9,40 +9,39 @@ import sys
 import time
 
 from demos.cli import guarded
-from demos.kernels import terminal_line, warm_up
+from demos.kernels import announce_compiling
 from engine.core.errors import BraceError
-
-DONE = "set-up.done"
 
 
 def main() -> None:
-    """Fetches and compiles what is missing. Clips that stay missing are no failure here: they are named when needed."""
-    complete = _fetch_clips()
-    _compile_kernels()
-    if complete:
-        from engine.clips.library import cache_folder
-
-        (cache_folder() / DONE).touch()
+    """Does what the words on the command line name."""
+    if "clips" in sys.argv[1:]:
+        fetch_clips()
+    if "kernels" in sys.argv[1:]:
+        compile_kernels()
 
 
-def _fetch_clips() -> bool:
-    """Whether all real clips are there now."""
+def fetch_clips() -> None:
+    """Brings the real clips; without network it says so and goes on."""
     from engine.clips.library import fetch
 
     try:
         fetch(_say)
     except BraceError as trouble:
-        _say(f"{trouble.message}; going on with the embedded clip `sway` (`./run clips fetch` tries again)")
-        return False
-    return True
+        _say(f"{trouble.message}; going on with the embedded clip 'sway' (./run clips fetch tries again)")
 
 
-def _compile_kernels() -> None:
+def compile_kernels() -> None:
+    """Runs a whole reaction on the embedded clip, so that set-up pays for compiling and no tick ever does."""
+    from demos.running import open_scenario, start
+
     begun = time.monotonic()
     _say("compiling kernels, once")
-    compiled = warm_up(terminal_line)
-    terminal_line("")
-    _say(f"{compiled} kernels compiled in {time.monotonic() - begun:.0f} s")
+    compiled = announce_compiling()
+    simulation = start(*open_scenario("sway"))
+    for _ in range(simulation.ticks):
+        simulation.step()
+    _say(f"{len(compiled)} kernels compiled in {time.monotonic() - begun:.0f} s")
 
 
 def _say(line: str) -> None:

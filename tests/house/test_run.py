@@ -11,7 +11,7 @@ import pytest
 from tests.conftest import ROOT
 
 SHELLS = [shell for shell in ("dash", "bash", "sh") if shutil.which(shell)]
-FILES = ("run", "requirements.lock", "requirements-dev.lock")
+FILES = ("run", "requirements.lock", "requirements-dev.lock", "engine/clips/fetching.py")
 
 # answers as much of Python as the script asks for; says what it was called with
 STAND_IN = """#!/bin/sh
@@ -22,7 +22,7 @@ case "$*" in
 *ensurepip*) exit 0 ;;
 *"pip install"*) echo "pip $*" >>"{bin}/calls"; exit {pip_exit} ;;
 -) cat >/dev/null ;;
-*demos.set_up*) echo "set_up" >>"{bin}/calls" ;;
+*demos.set_up*) shift 3; echo "set_up $*" >>"{bin}/calls" ;;
 *demos.cli*) echo "cwd=$PWD path=$PYTHONPATH cache=$BRACE_CACHE"; for word in "$@"; do echo "<$word>"; done; exit 7 ;;
 *) echo "unexpected: $*" >&2; exit 99 ;;
 esac
@@ -36,12 +36,13 @@ class Checkout:
         self.root = folder / "a checkout"
         self.root.mkdir()
         for name in FILES:
-            shutil.copy(ROOT / name, self.root)
+            (self.root / name).parent.mkdir(parents=True, exist_ok=True)
+            shutil.copy(ROOT / name, self.root / name)
         self.home = folder / "home"
         self.home.mkdir()
         self.bin = folder / "bin"
         self.bin.mkdir()
-        for tool in ("sh", "cat", "cksum", "dirname", "mkdir", "rm", "ls", "head", "cp", "id", "flock"):
+        for tool in ("sh", "cat", "cksum", "dirname", "mkdir", "rm", "ls", "head", "cp", "id", "flock", "touch"):
             found = shutil.which(tool)
             if found:
                 (self.bin / tool).symlink_to(found)
@@ -98,13 +99,13 @@ def test_first_call_sets_up_and_passes_the_words_on(checkout, tmp_path, shell):
     where, *words = done.stdout.splitlines()
     assert where == f"cwd={tmp_path} path={checkout.root} cache={checkout.home}/.cache/brace"
     assert words[-3:] == ["<react>", "<my scenario.toml>", "<--json>"]
-    assert [call.split()[0] for call in checkout.calls] == ["pip", "set_up"]
-    assert "--require-hashes" in checkout.calls[0]
+    pip, set_up = checkout.calls
+    assert "--require-hashes" in pip
+    assert set_up == "set_up clips kernels"
 
 
 def test_later_calls_set_nothing_up_and_are_quick(checkout):
     checkout.run("react")
-    (checkout.home / ".cache/brace/set-up.done").touch()
     (checkout.bin / "calls").unlink()
     begun = time.perf_counter()
     done = checkout.run("react")
@@ -162,3 +163,19 @@ def test_without_a_home_the_cache_lies_in_the_checkout(checkout, home):
 def test_the_cache_may_be_named(checkout, tmp_path):
     assert f"cache={tmp_path}/here" in checkout.run("react", BRACE_CACHE=f"{tmp_path}/here").stdout
     assert f"cache={tmp_path}/xdg/brace" in checkout.run("react", XDG_CACHE_HOME=f"{tmp_path}/xdg").stdout
+
+
+def test_another_cache_only_needs_its_clips(checkout, tmp_path):
+    checkout.run("react")
+    (checkout.bin / "calls").unlink()
+    checkout.run("react", BRACE_CACHE=f"{tmp_path}/here")
+    assert checkout.calls == ["set_up clips"]
+
+
+def test_nowhere_to_write_is_one_line(tmp_path):
+    checkout = Checkout(tmp_path)
+    (checkout.root / ".venv").write_text("in the way")
+    done = checkout.run("react")
+    assert done.returncode == 3
+    assert done.stderr.startswith("error[unwritable]: ")
+    assert done.stderr.count("\n") == 1
