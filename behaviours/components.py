@@ -102,6 +102,28 @@ class Ragdoll(Component):
     active = column(dtype=bool)
 
 
+SAMPLES, STRIDE_TICKS = 5, 2  # of a window of motion, and from one to the next
+WINDOW_TICKS = (SAMPLES - 1) * STRIDE_TICKS + 2  # velocities need one more tick
+
+
+class Struck(Component):
+    """The last moments under the physics, for the search of a motion that goes on from there."""
+
+    recover = column(dtype=np.int64)  # Recover
+    joints_m = column(WINDOW_TICKS, JOINT_COUNT, 3)  # at the last ticks, the latest first
+    count = column(dtype=np.int64)  # how many of them there are since the blow
+    rests = column(dtype=np.int64)  # ticks for which a body that is down has lain still
+    said = column(dtype=bool)  # that it stays down
+
+
+class Recover(IntEnum):
+    """What a character goes back to."""
+
+    SAME = 0
+    NEW = 1
+    AUTO = 2
+
+
 class Blow(Component):
     """A blow that is being dealt to a character: an impulse on its way, over the time that the ball presses."""
 
@@ -197,6 +219,7 @@ COMPONENTS = (
     Blend,
     Sustained,
     Ragdoll,
+    Struck,
     Blow,
     Feet,
     Residual,

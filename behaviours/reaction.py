@@ -10,8 +10,6 @@ what is left of the old motion (`behaviours.seams`). The systems below say when.
 
 from __future__ import annotations
 
-import numpy as np
-
 from behaviours import feet as foot_plan
 from behaviours import seams
 from behaviours.blending import primary_support
@@ -27,6 +25,7 @@ from behaviours.components import (
     Ragdoll,
     Reaction,
     Residual,
+    Struck,
     Sustained,
     Threat,
 )
@@ -34,6 +33,7 @@ from behaviours.playing import body_of, clip_pose, perception_clip_s, planted_in
 from behaviours.protection import perceived_threat, protect_from
 from behaviours.recovery import begin_recovery, begin_return, has_fallen, resume_clip
 from behaviours.rules.startle import startle_pose
+from behaviours.search import choose_return
 from behaviours.settling import settled_pose
 from behaviours.sources import foot_goals, source_pose
 from behaviours.timing import TICK_S, whole_ticks
@@ -43,7 +43,7 @@ from engine.core.schedule import Stage, system
 
 BUSY = (Phase.STARTLE, Phase.PROTECT, Phase.RESPOND, Phase.RECOVER_BLEND, Phase.DOWN)
 STATE = (
-    Blend, Character, Feet, Flight, Playback, Posture, Ragdoll, Reaction, Residual, Sustained, Threat,
+    Blend, Character, Feet, Flight, Playback, Posture, Ragdoll, Reaction, Residual, Struck, Sustained, Threat,
 )  # fmt: skip
 STEP_SHARE = 0.75  # of the time to contact: a foot stands before the blow comes
 
@@ -204,6 +204,7 @@ def end_response(world, row: int, tick: int) -> None:
         enter(world, row, tick, Phase.DOWN)
         return
     old = moment_before(world, row, tick)
+    choose_return(world, row)
     begin_recovery(world, row, tick)
     enter(world, row, tick, Phase.RECOVER_BLEND)
     keep_continuous(world, row, tick, old)

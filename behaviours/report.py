@@ -35,7 +35,7 @@ def metrics_of(world, row: int, track: Track) -> dict[str, Any]:
     mine = [event for event in world.events if event.entity == who]
     perceived = [event.data for event in mine if event.kind == "perceived"]
     contacts = [event.data for event in mine if event.kind == "contact"]
-    clip = world.assets.clips[track.clip[0]]
+    clips = [world.assets.clips[number] for number in sorted(set(track.clip))]
     head_g = measures.head_acceleration_g(track)
     place, speed = measures.seam_jumps(track)
     phase = Phase(int(world[Reaction].phase[row]))
@@ -49,16 +49,16 @@ def metrics_of(world, row: int, track: Track) -> dict[str, Any]:
         "hand_line_deviation_max_m": measures.hand_line_deviation_max_m(track.lines),
         "com_line_deviation_max_m": measures.com_line_deviation_max_m(track.lines),
         "com_margin_min_m": measures.com_margin_min_m(track),
-        "joint_limit_excess_max_rad": measures.joint_limit_excess_max_rad(track, clip_excess_rad(clip)),
+        "joint_limit_excess_max_rad": measures.joint_limit_excess_max_rad(track, clips_excess_rad(clips)),
         "seam_position_jump_max_m": place,
         "seam_velocity_jump_max_mps": speed,
-        "recovered_to": recovered_to(track, clip.name, phase),
+        "recovered_to": recovered_to(track, world.assets.clips[track.clip[-1]].name, phase),
     }
 
 
-def clip_excess_rad(clip) -> np.ndarray:
-    """(J,) how far the clip itself oversteps each joint's limits, at most."""
-    return excess_rad(clip.body, clip.pose.rotations).max(axis=0)
+def clips_excess_rad(clips) -> np.ndarray:
+    """(J,) how far the clips themselves that were played overstep each joint's limits, at most."""
+    return np.max([excess_rad(clip.body, clip.pose.rotations).max(axis=0) for clip in clips], axis=0)
 
 
 def recovered_to(track: Track, clip_name: str, phase: Phase) -> str | None:

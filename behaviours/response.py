@@ -21,7 +21,9 @@ from behaviours.components import (
     Posture,
     Ragdoll,
     Reaction,
+    Recover,
     Residual,
+    Struck,
     Sustained,
     Threat,
 )
@@ -29,6 +31,7 @@ from behaviours.inertialise import nothing_left
 from behaviours.playing import body_of, perception_clip_s
 from behaviours.reaction import enter
 from behaviours.seams import MOMENT, shown
+from behaviours.search import begin_remembering, remember
 from behaviours.settling import settled_pose
 from behaviours.timing import TICK_S
 from engine.body.kinematics import joints_of
@@ -42,7 +45,11 @@ GUARDED = (Phase.STARTLE, Phase.PROTECT, Phase.HOLD)  # in these the sustained p
 NEAR_M = 1.5  # a ball farther from the pelvis than its own size plus this meets nobody
 
 
-@system(Stage.SIMULATE, reads=(Character, Reaction, Sustained, Ragdoll, Blow, Flight), writes=(Ragdoll, Blow, Flight))
+@system(
+    Stage.SIMULATE,
+    reads=(Character, Reaction, Sustained, Ragdoll, Struck, Blow, Flight),
+    writes=(Ragdoll, Struck, Blow, Flight),
+)
 def step_bodies(world, tick):
     """Whoever was struck is stepped by the physics, tracked towards the sustained pose; blows under way are dealt."""
     response = world.assets.settings.response
@@ -61,6 +68,8 @@ def step_bodies(world, tick):
         )
         doll.head_mps[row] = trace[:, HEAD]
         doll.stepped[row] = tick
+        if world[Struck].recover[row] != Recover.SAME:
+            remember(world, row, joints_of(model.body, ragdoll.pose_of(model, doll.state[row]))[0])
         carry_ball(world, row, model)
 
 
@@ -101,8 +110,8 @@ def carry_ball(world, row: int, model) -> None:
 
 @system(
     Stage.SETTLE,
-    reads=(Posture, Character, Flight, Reaction, Playback, Ragdoll, Blow, Sustained, Feet, Residual, Threat, Blend),
-    writes=(Reaction, Ragdoll, Blow, Sustained, Feet, Residual, Flight, Threat),
+    reads=(Posture, Character, Flight, Reaction, Playback, Ragdoll, Struck, Blow, Sustained, Feet, Residual, Threat, Blend),
+    writes=(Reaction, Ragdoll, Struck, Blow, Sustained, Feet, Residual, Flight, Threat),
 )
 def meet_balls(world, tick):
     """Every ball against every body, between the last tick and this one."""
@@ -223,6 +232,7 @@ def begin_response(world, row: int, tick: int, state: np.ndarray) -> None:
     model = world.assets.models[int(world[Character].body[row])]
     world[Ragdoll].head_mps[row] = ragdoll.part_motion_of(model, state)[HEAD]
     world[Ragdoll].stepped[row], world[Ragdoll].active[row] = tick, True
+    begin_remembering(world, row, joints_of(model.body, now)[0])
     for side in range(2):
         foot_plan.let_go(world[Feet], row, side)
     nothing_left(world[Residual], row)

@@ -40,13 +40,6 @@ class CharacterSpec(_Section):
     sex: Literal["male", "female"] = "male"
     mass_kg: Annotated[float, Field(gt=10, lt=300)] | None = None
 
-    @field_validator("recover")
-    @classmethod
-    def _shipped(cls, value: str) -> str:
-        if value != "same":
-            raise ValueError("only 'same' is available in this version (the search for a new clip is not there yet)")
-        return value
-
 
 class ThreatSpec(_Section):
     """One ball. Scripted: given at contact, in the character's frame. Free: given at launch, in the world."""
@@ -114,6 +107,7 @@ class Scenario(_Section):
     duration_s: Annotated[float, Field(gt=0, le=600)] = 4.0
     character: tuple[CharacterSpec, ...] = (CharacterSpec(),)
     threat: tuple[ThreatSpec, ...] = ()
+    library: tuple[str, ...] | None = None  # clips that a search for a new motion looks through; None: all that are here
     settings: dict[str, Any] = {}
 
     @model_validator(mode="after")

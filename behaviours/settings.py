@@ -204,6 +204,20 @@ class Recovery(NamedTuple):
     fallen_hip_share: Annotated[float, Constant("1", "A8", "hips below this share of the leg's length: knocked down")] = 0.55
 
 
+class Search(NamedTuple):
+    """Which motion a struck character goes on with (4.1.3; Zordan et al. 2005), where a new one may be searched for."""
+
+    auto_over_m: Annotated[float, Constant("m", "A9", "auto: a new motion if the blow moved the body more than this")] = 0.10
+    own_clip: Annotated[bool, Constant("yes/no", "A9", "whether the clip that was played counts as new")] = False
+    velocity_s: Annotated[float, Constant("s", "A9", "a velocity counts as the distance it goes in this time")] = 0.1
+    candidates: Annotated[int, Constant("count", "A9", "windows of the prefilter that are compared exactly")] = 96
+    least_left_s: Annotated[float, Constant("s", "A9", "of a motion that ends, after it is entered")] = 1.0
+    rest_mps: Annotated[float, Constant("m/s", "A8", "mean speed of a body that has come to rest")] = 0.12
+    rest_s: Annotated[float, Constant("s", "A8", "how long it lies still before it gets up")] = 0.4
+    get_up_within_m: Annotated[float, Constant("m", "A8", "a get-up that begins farther off is not begun")] = 0.45
+    get_up_blend_s: Annotated[float, Constant("s", "A8", "from lying as fallen to lying as the get-up begins")] = 0.7
+
+
 class Settings(NamedTuple):
     """All of it. Immutable: `override` gives a changed copy."""
 
@@ -223,6 +237,7 @@ class Settings(NamedTuple):
     blend: Blend = Blend()
     response: Response = Response()
     recovery: Recovery = Recovery()
+    search: Search = Search()
 
 
 CHOICES = {

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
@@ -20,18 +19,22 @@ from behaviours.components import (
     Posture,
     Ragdoll,
     Reaction,
+    Recover,
     Residual,
     Script,
+    Struck,
     Sustained,
 )
 from behaviours.flying import fly_balls
 from behaviours.launching import launch_threats, throw
+from behaviours.library import FindClip, gather_libraries
 from behaviours.observing import Observer
 from behaviours.placing import placed
 from behaviours.reaction import advance_reactions, notice
 from behaviours.report import report_of
 from behaviours.response import meet_balls, step_bodies
 from behaviours.scenario import CharacterSpec, Scenario, ThreatSpec
+from behaviours.search import Library
 from behaviours.senses import watch_free_threats
 from behaviours.settings import Settings, override
 from behaviours.settling import settle_poses
@@ -60,9 +63,6 @@ SYSTEMS = (
     meet_balls,
 )
 
-FindClip = Callable[[CharacterSpec], Clip]
-
-
 @dataclass(frozen=True)
 class Assets:
     """What never changes in a run: shared by all ticks, no part of the state."""
@@ -74,17 +74,19 @@ class Assets:
     capsules: tuple[Capsules, ...]
     threats: tuple[ThreatSpec, ...]
     character_rows: tuple[int, ...]
+    libraries: tuple[Library | None, ...]  # of each character: what it may go on with, where that is searched for
 
 
 def build_world(scenario: Scenario, find: FindClip) -> World:
     """The world of a scenario at tick 0. `find` brings a character's clip (it may raise BadInput)."""
-    clips = tuple(_clip_of(spec, find) for spec in scenario.character)
-    bodies = tuple(clip.body for clip in clips)
-    rows = tuple(range(len(clips)))
+    own = tuple(_clip_of(spec, find) for spec in scenario.character)
+    bodies = tuple(clip.body for clip in own)
+    rows = tuple(range(len(own)))
     settings = override(Settings(), flat_settings(scenario.settings))
     models = tuple(model_for(body) for body in bodies)
     capsules = tuple(body_capsules(body) for body in bodies)
-    assets = Assets(settings, clips, bodies, models, capsules, scenario.threat, rows)
+    clips, libraries = gather_libraries(scenario, own, find, settings)
+    assets = Assets(settings, clips, bodies, models, capsules, scenario.threat, rows, libraries)
     world = World(COMPONENTS, scenario.seed, assets)
     for row, spec in zip(rows, scenario.character, strict=True):
         _spawn_character(world, row, spec)
@@ -128,6 +130,7 @@ def _spawn_character(world: World, row: int, spec: CharacterSpec) -> None:
         Blend(ticks=1.0),
         Sustained(root_m=pose.root_m, rotations=pose.rotations),
         Ragdoll(),
+        Struck(recover=Recover[spec.recover.upper()]),
         Blow(ball=NOBODY),
         Feet(ticks=(1.0, 1.0)),
         Residual(since=-1000),

@@ -7,6 +7,7 @@ from collections.abc import Iterable, Sequence
 from pathlib import Path
 from typing import Any, TypeVar
 
+from behaviours.library import library_names
 from behaviours.scenario import CharacterSpec, Scenario, check_scenario, load_scenario
 from behaviours.simulation import Simulation, apply_command
 from demos.kernels import announce_compiling, forget_stale
@@ -41,11 +42,19 @@ def start(scenario: Scenario, folder: Path, observe: bool = False) -> Simulation
 def journal_of(simulation: Simulation, folder: Path) -> Journal:
     """An empty recording of a run, with all that a replay on this machine needs."""
     header = {
-        "scenario": simulation.scenario.model_dump(mode="json"),
+        "scenario": {**simulation.scenario.model_dump(mode="json"), "library": searched_names(simulation)},
         "folder": str(folder),
+        # own clips first; then what a search looked through
         "clips": [clip.key for clip in simulation.world.assets.clips],
+        "indexes": [library.index.key for library in simulation.world.assets.libraries if library],
     }
     return new_journal(header, simulation.world)
+
+
+def searched_names(simulation: Simulation) -> list[str] | None:
+    """The library's clips by name, so that a replay searches these and not what has been fetched since."""
+    searches = any(simulation.world.assets.libraries)
+    return list(library_names(simulation.scenario)) if searches else None
 
 
 def recorder_of(simulation: Simulation, folder: Path) -> Recorder:
@@ -57,13 +66,16 @@ def replayed(journal: Journal, where: str) -> tuple[Simulation, Recorder]:
     """The run that a recording is of, at its first tick. BadInput where its clips are no longer what they were."""
     try:
         header: dict[str, Any] = journal.header
-        scenario, folder, keys = header["scenario"], Path(header["folder"]), header["clips"]
+        scenario, folder, keys, indexes = header["scenario"], Path(header["folder"]), header["clips"], header["indexes"]
     except (KeyError, TypeError) as trouble:
         raise BadInput("recording", f"its header lacks {trouble}", where) from None
     simulation = start(check_scenario(scenario, where), folder)
-    for spec, clip, key in zip(simulation.scenario.character, simulation.world.assets.clips, keys, strict=True):
+    assets = simulation.world.assets
+    for clip, key in zip(assets.clips, keys, strict=False):
         if clip.key != key:
-            raise BadInput("recording", f"the clip {spec.clip!r} is not the one that was recorded with", where)
+            raise BadInput("recording", f"the clip {clip.name!r} is not the one that was recorded with", where)
+    if len(keys) != len(assets.clips) or indexes != [library.index.key for library in assets.libraries if library]:
+        raise BadInput("recording", "the library that is searched is not the one that was recorded with", where)
     return simulation, replay(simulation.world, simulation.step, apply_command, journal)
 
 

@@ -1,0 +1,63 @@
+"""What a character may go on with after a blow: the clips of the library moved onto its body, and their index.
+
+Only for characters that may take up a new motion: nothing here is done, or imported, for the others.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import TYPE_CHECKING
+
+from behaviours.scenario import CharacterSpec, Scenario
+from behaviours.settings import Settings
+from engine.clips.clip import Clip
+from engine.clips.library import list_clips
+
+if TYPE_CHECKING:
+    from behaviours.search import Library
+
+FindClip = Callable[[CharacterSpec], Clip]
+
+
+def library_names(scenario: Scenario) -> tuple[str, ...]:
+    """The clips of the library that are searched: those that the scenario lists, else all that are here."""
+    if scenario.library is not None:
+        return scenario.library
+    return tuple(listed.name for listed in list_clips() if listed.ready)
+
+
+def gather_libraries(
+    scenario: Scenario, clips: tuple[Clip, ...], find: FindClip, settings: Settings
+) -> tuple[tuple[Clip, ...], tuple[Library | None, ...]]:
+    """All clips of the run, the characters' own (given) first, and one Library or None a character."""
+    every, libraries = list(clips), []
+    for row, spec in enumerate(scenario.character):
+        if spec.recover == "same":
+            libraries.append(None)
+            continue
+        chosen = _chosen(scenario, clips, row, find)
+        libraries.append(_library(chosen, every, row, settings))
+    return tuple(every), tuple(libraries)
+
+
+def _chosen(scenario: Scenario, clips: tuple[Clip, ...], row: int, find: FindClip) -> list[Clip]:
+    """The clips that a character's search looks at, no two the same: its own, the library's, the other characters'."""
+    spec = scenario.character[row]
+    named = [find(spec.model_copy(update={"clip": name, "mirrored": False})) for name in library_names(scenario)]
+    return list({clip.key: clip for clip in (clips[row], *named, *clips)}.values())
+
+
+def _library(chosen: list[Clip], every: list[Clip], row: int, settings: Settings) -> Library:
+    """Moves them onto the character's body, adds them to the clips of the run, and indexes them."""
+    from behaviours.motion_index import index_clips
+    from behaviours.search import Library
+    from engine.clips.retarget import retarget_clip
+
+    body = every[row].body
+    own = (every[row], *(retarget_clip(clip, body) for clip in chosen[1:]))
+    rows = (row, *range(len(every), len(every) + len(own) - 1))
+    every.extend(own[1:])
+    index = index_clips(
+        own, body, settings.timing.sustained_ahead_s, settings.search.least_left_s, settings.search.velocity_s
+    )
+    return Library(index, rows)
