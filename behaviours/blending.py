@@ -14,15 +14,19 @@ from typing import NamedTuple
 import numpy as np
 from numba import njit
 
+from behaviours.clearing import allowed_swivel, clear_arms, depths_at, let_be, slerped_swivel
+from behaviours.overlap import PAIRS
 from engine.body import limits
-from engine.body.footing import drop_to_reach
 from engine.body.kinematics import centre_of_mass, joints_into
-from engine.body.limb_ik import CARRIED, apply_arm, apply_leg, arm_swivel, leg_swivel
-from engine.body.skeleton import ANKLES, ELBOWS, HEAD, HIPS, JOINT_COUNT, NECK, PELVIS, WRISTS
+from engine.body.limb_ik import CARRIED, apply_leg, arm_swivel, leg_swivel
+from engine.body.skeleton import ANKLES, ELBOWS, HEAD, HIPS, JOINT_COUNT, KNEES, NECK, PELVIS, SHOULDERS, WRISTS
+from engine.body.two_bones import soft_reach
 from engine.maths import quaternion, vector
 
 COM_PASSES = 5  # each closes about nine tenths of what is missing: the legs stay behind when the pelvis moves
 COM_GAIN = 1.12
+LEG_SOFT_M = 0.010  # a leg straightens over this length, instead of snapping straight
+LEG_SPARE_M = 0.0005  # and stays this much short of it, but where its own motion has it straighter
 
 
 class FootGoals(NamedTuple):
@@ -41,15 +45,19 @@ class BlendEnd(NamedTuple):
     positions: np.ndarray  # (J, 3) world
     orientations: np.ndarray  # (J, 4) world
     com_m: tuple[float, float, float]
+    depths_m: np.ndarray  # (P,) how deep arms are in the body, see `behaviours.overlap`
 
 
 @njit(cache=True)
-def blend_end(body, root_m, rotations):
+def blend_end(body, capsules, root_m, rotations):
     """A pose with its joints in the world and its COM."""
     positions = np.empty((JOINT_COUNT, 3))
     orientations = np.empty((JOINT_COUNT, 4))
     joints_into(body.offset_m, root_m, rotations, positions, orientations)
-    return BlendEnd(root_m, rotations, positions, orientations, centre_of_mass(body, positions, orientations))
+    depths = np.empty(len(PAIRS))
+    depths_at(capsules, positions, orientations, depths)
+    com_m = centre_of_mass(body, positions, orientations)
+    return BlendEnd(root_m, rotations, positions, orientations, com_m, depths)
 
 
 @njit(cache=True)
@@ -66,16 +74,21 @@ def primary_support(planted, ankles_m, com_m):
 
 
 @njit(cache=True)
-def slerp_from_support(body, start, end, weight, support, root_m, rotations, positions, orientations):
-    """First pass: every joint slerped, and the pelvis placed so that the support foot goes straight from end to end.
+def mix_joint(joint, first, last, weight):
+    """A joint between two rotations: slerped; elbow, wrist and knee component by component.
 
-    Elbows and wrists go component by component: slerp would take an elbow sideways from one forearm twist to another.
+    Slerp would take an elbow sideways from one forearm twist to another, farther than any elbow goes.
     """
+    if joint in ELBOWS or joint in WRISTS or joint in KNEES:
+        return limits.mix(first, last, weight)
+    return quaternion.slerp(first, last, weight)
+
+
+@njit(cache=True)
+def slerp_from_support(body, start, end, weight, support, root_m, rotations, positions, orientations):
+    """First pass: every joint slerped, and the pelvis placed so that the support foot goes straight from end to end."""
     for j in range(JOINT_COUNT):
-        if j == ELBOWS[0] or j == ELBOWS[1] or j == WRISTS[0] or j == WRISTS[1]:
-            q = limits.mix(start.rotations[j], end.rotations[j], weight)
-        else:
-            q = quaternion.slerp(start.rotations[j], end.rotations[j], weight)
+        q = mix_joint(j, start.rotations[j], end.rotations[j], weight)
         rotations[j, 0], rotations[j, 1], rotations[j, 2], rotations[j, 3] = q
     root_m[:] = 0.0
     rotations[PELVIS, 0], rotations[PELVIS, 1], rotations[PELVIS, 2], rotations[PELVIS, 3] = quaternion.IDENTITY
@@ -93,15 +106,33 @@ def slerp_from_support(body, start, end, weight, support, root_m, rotations, pos
 
 
 @njit(cache=True)
-def hold_feet(body, goals, knee_swivels, root_m, rotations, positions, orientations):
+def leg_lengths(positions):
+    """(left, right): from hip to ankle, metres."""
+    return (
+        vector.distance(positions[HIPS[0]], positions[ANKLES[0]]),
+        vector.distance(positions[HIPS[1]], positions[ANKLES[1]]),
+    )
+
+
+@njit(cache=True)
+def legs_to(body, root_m, rotations, ankle_m):
+    """(left, right): how far it is from a pose's hips to two places (2, 3), metres."""
+    positions = np.empty((JOINT_COUNT, 3))
+    joints_into(body.offset_m, root_m, rotations, positions, np.empty((JOINT_COUNT, 4)))
+    return vector.distance(positions[HIPS[0]], ankle_m[0]), vector.distance(positions[HIPS[1]], ankle_m[1])
+
+
+@njit(cache=True)
+def hold_feet(body, goals, own_lengths, knee_swivels, root_m, rotations, positions, orientations):
     """Leg IK onto the goals of both feet; lowers the pelvis first where a goal is out of a leg's reach. In place.
 
-    `knee_swivels` (2,) radians, as `engine.body.limb_ik.leg_swivel` measures them.
+    `own_lengths` (2,): how long the legs would be without any goal, see `drop_beyond_own`. `knee_swivels` (2,) radians, as
+    `engine.body.limb_ik.leg_swivel` measures them.
     """
     drop = 0.0
     for side in range(2):
         if goals.bound[side]:
-            drop = max(drop, drop_to_reach(body, positions[HIPS[side]], goals.ankle_m[side], side))
+            drop = max(drop, drop_beyond_own(body, positions[HIPS[side]], goals.ankle_m[side], side, own_lengths[side]))
     if drop > 0.0:
         root_m[2] -= drop
         for j in range(JOINT_COUNT):
@@ -122,7 +153,24 @@ def hold_feet(body, goals, knee_swivels, root_m, rotations, positions, orientati
 
 
 @njit(cache=True)
-def move_com(body, com_wanted_m, goals, knee_swivels, root_m, rotations, positions, orientations):
+def drop_beyond_own(body, hip_m, ankle_m, side, own_length_m):
+    """How far the hip has to sink to keep the ankle in the leg's reach, metres.
+
+    It begins before the leg is straight and never lets it get quite there, so that the knee does not snap; a leg that is
+    as long as its own motion has it asks for nothing, however straight that is. Where the foot stands farther off sideways than the
+    leg is long, sinking helps no further: as far as it does.
+    """
+    full = vector.length(body.offset_m[KNEES[side]]) + vector.length(body.offset_m[ANKLES[side]])
+    wanted = vector.distance(hip_m, ankle_m)
+    reach = soft_reach(wanted, own_length_m, max(full - LEG_SPARE_M, own_length_m), LEG_SOFT_M)
+    if reach >= wanted:
+        return 0.0
+    across = math.hypot(hip_m[0] - ankle_m[0], hip_m[1] - ankle_m[1])
+    return max(0.0, hip_m[2] - ankle_m[2] - math.sqrt(max(reach * reach - across * across, 0.0)))
+
+
+@njit(cache=True)
+def move_com(body, com_wanted_m, goals, own_lengths, knee_swivels, root_m, rotations, positions, orientations):
     """Second pass: shifts the pelvis until the COM is where it is wanted, the feet held (thesis 4.3). In place."""
     for _ in range(COM_PASSES):
         com = centre_of_mass(body, positions, orientations)
@@ -130,7 +178,7 @@ def move_com(body, com_wanted_m, goals, knee_swivels, root_m, rotations, positio
             shift = COM_GAIN * (com_wanted_m[k] - com[k])
             root_m[k] += shift
         joints_into(body.offset_m, root_m, rotations, positions, orientations)
-        hold_feet(body, goals, knee_swivels, root_m, rotations, positions, orientations)
+        hold_feet(body, goals, own_lengths, knee_swivels, root_m, rotations, positions, orientations)
 
 
 @njit(cache=True)
@@ -151,15 +199,28 @@ def mix_angle(first_rad, last_rad, weight):
 
 
 @njit(cache=True)
-def carry_hands(body, start, end, weight, rotations, positions, orientations):
-    """Each hand on the straight line between its two ends, the elbow's swivel angle interpolated (thesis 4.3). In place."""
+def hands_between(start, end, weight):
+    """Both wrists on the straight lines between their ends, the elbows' swivel angles interpolated (thesis 4.3): (2, 3), (2,)."""
+    targets, swivels = np.empty((2, 3)), np.empty(2)
     for side in range(2):
-        wrist = WRISTS[side]
-        hand_m = vector.mix(start.positions[wrist], end.positions[wrist], weight)
+        hand_m = vector.mix(start.positions[WRISTS[side]], end.positions[WRISTS[side]], weight)
+        targets[side, 0], targets[side, 1], targets[side, 2] = hand_m
         first = arm_swivel(start.positions, start.orientations, side, CARRIED)
         last = arm_swivel(end.positions, end.orientations, side, CARRIED)
-        swivel = mix_angle(first, last, weight)
-        apply_arm(body, rotations, positions, orientations, side, hand_m, swivel, CARRIED)
+        swivels[side] = mix_angle(first, last, weight)
+    return targets, swivels
+
+
+@njit(cache=True)
+def carry_hands(body, start, end, weight, targets_m, swivels, rotations, positions, orientations):
+    """Each wrist onto its target, the elbow as its swivel says or as near to it as the shoulder allows. In place."""
+    for side in range(2):
+        joint = SHOULDERS[side]
+        slerped = slerped_swivel(body, positions, orientations, rotations, side, targets_m[side])
+        swivels[side] = allowed_swivel(
+            body, side, start.rotations[joint], end.rotations[joint], targets_m[side], swivels[side], slerped,
+            rotations, positions, orientations,
+        )  # fmt: skip
 
 
 @njit(cache=True)
@@ -171,15 +232,32 @@ def knee_swivels_between(start, end, weight):
 
 
 @njit(cache=True)
-def blend_into(body, start, end, weight, support, goals, root_m, rotations):
-    """The pose a weight (already eased, 0 to 1) of the way from one end to the other. Writes root_m (3,) and rotations (J, 4)."""
+def blend_into(body, capsules, start, end, weight, support, goals, root_m, rotations):
+    """The pose a weight (already eased, 0 to 1) of the way from one end to the other. Writes root_m (3,) and rotations (J, 4).
+
+    Returns how far either hand was led off its straight line to go round the body: (left, right), metres.
+    """
     positions = np.empty((JOINT_COUNT, 3))
     orientations = np.empty((JOINT_COUNT, 4))
     slerp_from_support(body, start, end, weight, support, root_m, rotations, positions, orientations)
     swivels = knee_swivels_between(start, end, weight)
-    hold_feet(body, goals, swivels, root_m, rotations, positions, orientations)
-    carry_hands(body, start, end, weight, rotations, positions, orientations)
+    first, last = leg_lengths(start.positions), leg_lengths(end.positions)
+    lengths = (first[0] + weight * (last[0] - first[0]), first[1] + weight * (last[1] - first[1]))
+    hold_feet(body, goals, lengths, swivels, root_m, rotations, positions, orientations)
+    targets, elbows = hands_between(start, end, weight)
+    slerped = rotations.copy()
+    carry_hands(body, start, end, weight, targets, elbows, rotations, positions, orientations)
     joints_into(body.offset_m, root_m, rotations, positions, orientations)
-    move_com(body, vector.mix(start.com_m, end.com_m, weight), goals, swivels, root_m, rotations, positions, orientations)
+    com_wanted = vector.mix(start.com_m, end.com_m, weight)
+    move_com(body, com_wanted, goals, lengths, swivels, root_m, rotations, positions, orientations)
     slerp_head(start, end, weight, rotations, positions, orientations)
-    carry_hands(body, start, end, weight, rotations, positions, orientations)
+    # the shoulders have moved: the arms once more, from what slerping alone had made of them
+    for side in range(2):
+        for joint in (SHOULDERS[side], ELBOWS[side], WRISTS[side]):
+            rotations[joint] = slerped[joint]
+    joints_into(body.offset_m, root_m, rotations, positions, orientations)
+    targets, elbows = hands_between(start, end, weight)
+    carry_hands(body, start, end, weight, targets, elbows, rotations, positions, orientations)
+    allowed = np.empty(len(start.depths_m))
+    let_be(start.depths_m, end.depths_m, weight, allowed)
+    return clear_arms(body, capsules, allowed, targets, elbows, rotations, positions, orientations)

@@ -52,6 +52,7 @@ class Character(Component):
 
     body = column(dtype=np.int64)  # row of world.assets.bodies
     startle = column(dtype=bool)
+    protects = column(dtype=bool)  # without it nothing is noticed: the same blow, unprepared
     response_s = column()
     turn_side = column(dtype=np.int64)  # the side last turned to: kept when a threat comes from dead ahead
 
@@ -97,6 +98,7 @@ class Ragdoll(Component):
     """The physics of a character that was struck: MuJoCo's whole integration state."""
 
     state = column(STATE_SIZE)
+    before = column(STATE_SIZE)  # a tick earlier
     head_mps = column(SUB_STEPS, 3)  # velocity of the head at the sub-steps of the last tick
     stepped = column(dtype=np.int64)  # the tick that the state is of
     active = column(dtype=bool)
@@ -169,6 +171,7 @@ class Residual(Component):
     joints = column(2, JOINT_COUNT, 3)
     ankles = column(2, 2, 3)
     ankle_turns = column(2, 2, 3)
+    stretch = column(2, 2)  # and how much longer either leg was than the source's
 
 
 class Flight(Component):

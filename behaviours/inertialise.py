@@ -21,6 +21,13 @@ def remaining(offset, velocity, elapsed_s, half_life_s):
 
 
 @njit(cache=True)
+def remaining2(offsets, elapsed_s, half_life_s):
+    """The same for two numbers: offsets (2, 2), values then velocities."""
+    left = springs.decaying(offsets[0, 0], offsets[1, 0], half_life_s, elapsed_s)[0]
+    return left, springs.decaying(offsets[0, 1], offsets[1, 1], half_life_s, elapsed_s)[0]
+
+
+@njit(cache=True)
 def turn_from(source, shown):
     """The rotation vector, in the parent's frame, that takes the source's orientation to the shown one."""
     return quaternion.to_rotation_vector(quaternion.multiply(shown, quaternion.conjugate(source)))
@@ -33,28 +40,39 @@ def turned_by(source, offset):
 
 
 @njit(cache=True)
-def _keep(out, now, before, dt_s):
-    """Writes an offset and its velocity from its values at two ticks."""
+def _keep(out, now, ahead, dt_s):
+    """Writes an offset and its velocity from its values now and a moment later."""
     for k in range(3):
         out[0, k] = now[k]
-        out[1, k] = (now[k] - before[k]) / dt_s
+        out[1, k] = (ahead[k] - now[k]) / dt_s
 
 
 @njit(cache=True)
-def measure_seam(source_root, source_rot, old_source_root, old_source_rot, root, rot, old_root, old_rot, dt_s, out_root, out_joints):
+def measure_seam(source_root, source_rot, later_root, later_rot, root, rot, ahead_root, ahead_rot, dt_s, out_root, out_joints):
     """What the shown motion had beyond the new source, at the last shown tick.
 
-    `source` is the new source at the last shown tick and `old_source` a tick earlier; `root`, `rot` are the shown
-    poses at the same two ticks. Writes offsets and velocities: (2, 3) and (2, J, 3).
+    `source` is the new source at the last shown tick and `later` a moment on; `root`, `rot` what is shown at that tick,
+    `ahead` that motion carried on for the same moment. Writes offsets and velocities: (2, 3) and (2, J, 3).
     """
     _keep(
         out_root,
         (root[0] - source_root[0], root[1] - source_root[1], root[2] - source_root[2]),
-        (old_root[0] - old_source_root[0], old_root[1] - old_source_root[1], old_root[2] - old_source_root[2]),
+        (ahead_root[0] - later_root[0], ahead_root[1] - later_root[1], ahead_root[2] - later_root[2]),
         dt_s,
     )
     for j in range(JOINT_COUNT):
-        _keep(out_joints[:, j], turn_from(source_rot[j], rot[j]), turn_from(old_source_rot[j], old_rot[j]), dt_s)
+        _keep(out_joints[:, j], turn_from(source_rot[j], rot[j]), turn_from(later_rot[j], ahead_rot[j]), dt_s)
+
+
+@njit(cache=True)
+def carry_on(root, rot, before_root, before_rot, ahead_root, ahead_rot):
+    """A motion carried on, evenly, for as long as it took from `before` to now. Writes (3,) and (J, 4)."""
+    for k in range(3):
+        ahead_root[k] = 2.0 * root[k] - before_root[k]
+    for j in range(JOINT_COUNT):
+        q = quaternion.normalise(quaternion.multiply(quaternion.multiply(rot[j], quaternion.conjugate(before_rot[j])), rot[j]))
+        for k in range(4):
+            ahead_rot[j, k] = q[k]
 
 
 @njit(cache=True)
@@ -71,5 +89,5 @@ def add_remaining(root, rotations, offset_root, offset_joints, elapsed_s, half_l
 
 def nothing_left(residual, row: int) -> None:
     """Forgets the residual of one row: the source is shown as it is."""
-    for name in ("root", "joints", "ankles", "ankle_turns"):
+    for name in ("root", "joints", "ankles", "ankle_turns", "stretch"):
         getattr(residual, name)[row] = np.zeros_like(getattr(residual, name)[row])

@@ -6,10 +6,11 @@ import numpy as np
 
 from behaviours.components import Phase
 from behaviours.observing import Line, Track
+from behaviours.overlap import overlaps_m, pair_name
 from engine.body import support
 from engine.body.kinematics import com_of, joints_of
 from engine.body.limits import excess_rad
-from engine.body.skeleton import WRISTS
+from engine.body.skeleton import WRISTS, Pose
 
 GRAVITY = 9.80665
 PHYSICS_HZ = 480.0
@@ -48,12 +49,13 @@ def distance_from_line(points_m: np.ndarray, start_m: np.ndarray, end_m: np.ndar
 
 
 def hand_line_deviation_max_m(lines: list[Line]) -> float:
-    """How far a blend's source takes a wrist off the straight line between its two ends (thesis 4.3)."""
+    """How far a blend's source takes a wrist off the straight line between its two ends (thesis 4.3), where nothing is in the way."""
     return max(
         (
             float(distance_from_line(line.between_m[None, w], line.start_m[w], line.end_m[w])[0])
             for line in lines
-            for w in WRISTS
+            for side, w in enumerate(WRISTS)
+            if line.on_line[side]
         ),
         default=0.0,
     )
@@ -83,6 +85,16 @@ def joint_limit_excess_max_rad(track: Track, clip_excess_rad: np.ndarray) -> flo
         return 0.0
     over = excess_rad(track.body, np.array(track.rotations)[chosen]) - clip_excess_rad
     return float(max(0.0, over.max()))
+
+
+def overlap_max_m(track: Track, clip_overlap_m: np.ndarray) -> tuple[float, str]:
+    """How deep a hand or forearm is inside head, trunk or the other arm beyond what the clip itself (P,) has; and which."""
+    chosen = ours(track)
+    if not chosen.any():
+        return 0.0, ""
+    pose = Pose(*(part[chosen] for part in track.pose))
+    over = (overlaps_m(track.body, pose) - np.maximum(clip_overlap_m, 0.0)).max(axis=0)
+    return float(max(0.0, over.max())), pair_name(int(over.argmax()))
 
 
 def seam_jumps(track: Track) -> tuple[float, float]:

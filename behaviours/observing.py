@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -10,12 +11,15 @@ from behaviours.components import Blend, Feet, Phase, Playback, Posture, Ragdoll
 from behaviours.playing import body_of
 from behaviours.seams import MOMENT
 from behaviours.settling import settled_pose
-from behaviours.sources import source_pose
+from behaviours.sources import blended
 from behaviours.timing import TICK_S
 from engine.body.kinematics import com_of, joints_of
-from engine.body.skeleton import Body, Pose
+from engine.body.skeleton import ELBOWS, SHOULDERS, WRISTS, Body, Pose
+from engine.body.two_bones import SOFT_REACH_M
 
 BLENDED = (Phase.STARTLE, Phase.PROTECT, Phase.HOLD, Phase.RECOVER_RETURN)
+
+SPARE_M = 0.001  # of an arm that is as good as stretched or folded
 
 
 @dataclass
@@ -60,6 +64,7 @@ class Line:
     between_m: np.ndarray  # (J, 3) joints of the source
     start_m: np.ndarray  # (J, 3) and of the blend's two ends
     end_m: np.ndarray
+    on_line: tuple[bool, bool]  # the hand is within reach of its line and nothing of the body is in its way
     com_m: np.ndarray  # (3,)
     com_ends_m: tuple[np.ndarray, np.ndarray]
 
@@ -95,12 +100,23 @@ def _note(world, row: int, tick: int, track: Track) -> None:
 
 def _line(world, row: int, tick: int, body: Body) -> Line:
     b = world[Blend]
-    source = source_pose(world, row, tick)
+    source, led_m = blended(world, row, tick)
     ends = (Pose(b.from_root_m[row], b.from_rotations[row]), Pose(b.to_root_m[row], b.to_rotations[row]))
+    joints_m = joints_of(body, source)[0]
     start_m, end_m = (joints_of(body, end)[0] for end in ends)
+    on_line = tuple(led_m[side] == 0.0 and in_reach(body, side, joints_m) for side in range(2))
     return Line(
-        tick, joints_of(body, source)[0], start_m, end_m, com_of(body, source), (com_of(body, ends[0]), com_of(body, ends[1]))
+        tick, joints_m, start_m, end_m, on_line, com_of(body, source), (com_of(body, ends[0]), com_of(body, ends[1]))
     )
+
+
+def in_reach(body: Body, side: int, joints_m: np.ndarray) -> bool:
+    """Whether an arm is neither stretched nor folded as far as it goes: then its hand is where it was wanted."""
+    upper, lower = (float(np.linalg.norm(body.offset_m[joint])) for joint in (ELBOWS[side], WRISTS[side]))
+    folded = math.pi + float(body.limit_low_rad[ELBOWS[side], 1])
+    least_m = math.sqrt(upper**2 + lower**2 - 2.0 * upper * lower * math.cos(folded))
+    far_m = float(np.linalg.norm(joints_m[WRISTS[side]] - joints_m[SHOULDERS[side]]))
+    return least_m + SPARE_M < far_m < upper + lower - SOFT_REACH_M - SPARE_M
 
 
 def _note_seam(world, row: int, tick: int, track: Track) -> None:

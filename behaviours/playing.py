@@ -7,6 +7,7 @@ import numpy as np
 from behaviours.components import Character, Phase, Playback, Posture, Reaction
 from behaviours.placing import placed
 from behaviours.timing import TICK_S
+from engine.body.capsules import Capsules
 from engine.body.skeleton import PELVIS, Body, Pose
 from engine.clips.clip import Clip
 from engine.clips.playback import planted_at, sample
@@ -16,6 +17,11 @@ from engine.maths import quaternion
 def body_of(world, row: int) -> Body:
     """The body of the character in a row."""
     return world.assets.bodies[int(world[Character].body[row])]
+
+
+def capsules_of(world, row: int) -> Capsules:
+    """The shape of the character in a row."""
+    return world.assets.capsules[int(world[Character].body[row])]
 
 
 def clip_of(world, row: int) -> Clip:

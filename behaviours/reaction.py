@@ -12,7 +12,7 @@ from __future__ import annotations
 
 from behaviours import feet as foot_plan
 from behaviours import seams
-from behaviours.blending import primary_support
+from behaviours.blending import blend_end, hold_feet, knee_swivels_between, leg_lengths, primary_support
 from behaviours.components import (
     NOBODY,
     Blend,
@@ -29,7 +29,7 @@ from behaviours.components import (
     Sustained,
     Threat,
 )
-from behaviours.playing import body_of, clip_pose, perception_clip_s, planted_in_clip
+from behaviours.playing import body_of, capsules_of, clip_pose, perception_clip_s, planted_in_clip
 from behaviours.protection import perceived_threat, protect_from
 from behaviours.recovery import begin_recovery, begin_return, has_fallen, resume_clip
 from behaviours.rules.startle import startle_pose
@@ -62,10 +62,11 @@ def moment_before(world, row: int, tick: int) -> Pose:
 
 def keep_continuous(world, row: int, tick: int, shown_before: Pose) -> None:
     """Measures the seam between what was shown and what the new phase shows; call it when the phase is all set up."""
-    source, before = source_pose(world, row, tick - 1), source_pose(world, row, tick - 1 - seams.MOMENT)
-    goals = foot_goals(world, row, tick - 1, source)
-    goals_before = foot_goals(world, row, tick - 1 - seams.MOMENT, before)
-    seams.begin_seam(world, row, tick, body_of(world, row), shown_before, source, before, goals, goals_before)
+    last, later = tick - 1, tick - 1 + seams.MOMENT
+    pose, pose_later = source_pose(world, row, last), source_pose(world, row, later)
+    goals, goals_later = foot_goals(world, row, last, pose), foot_goals(world, row, later, pose_later)
+    source = seams.Moving(pose, pose_later, goals, goals_later)
+    seams.begin_seam(world, row, tick, body_of(world, row), shown_before, source)
 
 
 def begin_blend(world, row: int, tick: int, start: Pose, end: Pose, ticks: float) -> None:
@@ -89,9 +90,20 @@ def begin_startle(world, row: int, tick: int, threat_row: int) -> None:
     toward = -world[Threat].travel[threat_row]
     startled = startle_pose(body_of(world, row), ahead, toward, settings)
     plant_standing_feet(world, row, tick)
+    startled = standing_in(world, row, tick, startled)
     begin_blend(world, row, tick, now, startled, float(whole_ticks(settings.timing.startle_s)))
     enter(world, row, tick, Phase.STARTLE)
     keep_continuous(world, row, tick, old)
+
+
+def standing_in(world, row: int, tick: int, pose: Pose) -> Pose:
+    """The pose with the held feet where they are held, the pelvis lowered as far as that takes: an end that can be reached."""
+    body = body_of(world, row)
+    end = blend_end(body, capsules_of(world, row), *pose)
+    goals = foot_plan.goals_of(world[Feet], row, tick)
+    swivels = knee_swivels_between(end, end, 0.0)
+    hold_feet(body, goals, leg_lengths(end.positions), swivels, end.root_m, end.rotations, end.positions, end.orientations)
+    return Pose(end.root_m, end.rotations)
 
 
 def plant_standing_feet(world, row: int, tick: int) -> None:
@@ -142,7 +154,7 @@ def notice(world, tick):
             continue
         threats.taken_up[threat_row] = True
         row = world.row(int(threats.at[threat_row]))
-        if r.phase[row] in BUSY:
+        if r.phase[row] in BUSY or not c.protects[row]:
             continue
         r.perceived[row], r.contact[row] = tick, threats.contact[threat_row]
         r.threat[row] = world.entity(threat_row)

@@ -9,6 +9,7 @@ import numpy as np
 from behaviours import measures
 from behaviours.components import Phase, Reaction
 from behaviours.observing import Track
+from behaviours.overlap import overlaps_m
 from behaviours.timing import TICK_S
 from engine.body.limits import excess_rad
 
@@ -38,6 +39,7 @@ def metrics_of(world, row: int, track: Track) -> dict[str, Any]:
     clips = [world.assets.clips[number] for number in sorted(set(track.clip))]
     head_g = measures.head_acceleration_g(track)
     place, speed = measures.seam_jumps(track)
+    overlap, between = measures.overlap_max_m(track, clips_overlap_m(clips))
     phase = Phase(int(world[Reaction].phase[row]))
     return {
         "ttc_s": perceived[0]["ttc_s"] if perceived else None,
@@ -50,6 +52,8 @@ def metrics_of(world, row: int, track: Track) -> dict[str, Any]:
         "com_line_deviation_max_m": measures.com_line_deviation_max_m(track.lines),
         "com_margin_min_m": measures.com_margin_min_m(track),
         "joint_limit_excess_max_rad": measures.joint_limit_excess_max_rad(track, clips_excess_rad(clips)),
+        "overlap_max_m": overlap,
+        "overlap_between": between,
         "seam_position_jump_max_m": place,
         "seam_velocity_jump_max_mps": speed,
         "recovered_to": recovered_to(track, world.assets.clips[track.clip[-1]].name, phase),
@@ -59,6 +63,11 @@ def metrics_of(world, row: int, track: Track) -> dict[str, Any]:
 def clips_excess_rad(clips) -> np.ndarray:
     """(J,) how far the clips themselves that were played overstep each joint's limits, at most."""
     return np.max([excess_rad(clip.body, clip.pose.rotations).max(axis=0) for clip in clips], axis=0)
+
+
+def clips_overlap_m(clips) -> np.ndarray:
+    """(P,) how deep those clips have their arms in head, trunk and each other themselves, at most; see `behaviours.overlap`."""
+    return np.max([overlaps_m(clip.body, clip.pose).max(axis=0) for clip in clips], axis=0)
 
 
 def recovered_to(track: Track, clip_name: str, phase: Phase) -> str | None:

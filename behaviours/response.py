@@ -63,6 +63,7 @@ def step_bodies(world, tick):
         down = world[Reaction].phase[row] == Phase.DOWN
         strength = response.stiffness * (response.down_share if down else 1.0)
         trace = np.empty((SUB_STEPS, JOINT_COUNT, 3))
+        doll.before[row] = doll.state[row]
         doll.state[row] = ragdoll.step(
             model, doll.state[row], target, strength, response.damping, TICK_S, pushes, trace
         )
@@ -228,7 +229,7 @@ def begin_response(world, row: int, tick: int, state: np.ndarray) -> None:
         r.clip_s[row] = perception_clip_s(world, row, tick)
         s.root_m[row], s.rotations[row] = now
         r.contact[row] = tick
-    world[Ragdoll].state[row] = state
+    world[Ragdoll].state[row], world[Ragdoll].before[row] = state, state
     model = world.assets.models[int(world[Character].body[row])]
     world[Ragdoll].head_mps[row] = ragdoll.part_motion_of(model, state)[HEAD]
     world[Ragdoll].stepped[row], world[Ragdoll].active[row] = tick, True

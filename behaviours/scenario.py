@@ -35,6 +35,7 @@ class CharacterSpec(_Section):
     heading_deg: float = 0.0
     mirrored: bool = False
     startle: bool = True
+    protects: bool = True  # false: sees nothing coming, for comparison
     recover: Recover = "same"
     response_s: Annotated[float, Field(gt=0, le=2)] = 0.08
     sex: Literal["male", "female"] = "male"

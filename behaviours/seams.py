@@ -6,13 +6,16 @@ change `begin_seam` measures what that motion has beyond the new one. The arithm
 
 from __future__ import annotations
 
+from typing import NamedTuple
+
 import numpy as np
 
 from behaviours import inertialise
+from behaviours.blending import FootGoals, legs_to
 from behaviours.components import Posture, Residual
 from behaviours.timing import TICK_S
 from engine.body.kinematics import joints_of
-from engine.body.skeleton import ANKLES, Pose
+from engine.body.skeleton import ANKLES, Body, Pose
 
 MOMENT = 1.0 / 64.0  # of a tick: short enough for a velocity, long enough for its digits
 STILL = 1e-4  # metres and radians: below this nothing is left to see
@@ -28,42 +31,44 @@ def shown(world, row: int) -> tuple[Pose, Pose]:
     )
 
 
-def begin_seam(world, row: int, tick: int, body, shown_before: Pose, source, source_before, goals, goals_before) -> None:
+class Moving(NamedTuple):
+    """A source, or what it shows, at the last tick and a moment later, with the places of its ankles."""
+
+    pose: Pose
+    later: Pose
+    goals: FootGoals
+    goals_later: FootGoals
+
+
+def begin_seam(world, row: int, tick: int, body: Body, shown_before: Pose, source: Moving) -> None:
     """Keeps what the shown motion has beyond the new source.
 
-    `source`: the new source's pose at the last tick; `goals`: where its feet are to be then (FootGoals); `..._before`: the same,
-    and what was shown, a MOMENT before. The shown velocity is thus the old source's own, one-sided.
+    `shown_before` is what was shown a MOMENT before the last tick. So the shown velocity is the old source's own, up to the
+    seam, and the new one's is its own from there on.
     """
     now, _ = shown(world, row)
-    r = world[Residual]
+    ahead = Pose(np.empty_like(now.root_m), np.empty_like(now.rotations))
+    inertialise.carry_on(*now, *shown_before, *ahead)
+    r, moment_s = world[Residual], MOMENT * TICK_S
     r.since[row] = tick - 1
-    inertialise.measure_seam(
-        source.root_m,
-        source.rotations,
-        source_before.root_m,
-        source_before.rotations,
-        now.root_m,
-        now.rotations,
-        shown_before.root_m,
-        shown_before.rotations,
-        MOMENT * TICK_S,
-        r.root[row],
-        r.joints[row],
-    )
-    _keep_ankles(r, row, body, now, shown_before, goals, goals_before)
+    inertialise.measure_seam(*source.pose, *source.later, *now, *ahead, moment_s, r.root[row], r.joints[row])
+    _keep_ankles(r, row, body, now, ahead, source, moment_s)
 
 
-def _keep_ankles(residual, row, body, now, before, goals, goals_before) -> None:
+def _keep_ankles(residual, row: int, body: Body, now: Pose, ahead: Pose, source: Moving, moment_s: float) -> None:
     at, turned = _ankles(body, now)
-    at_before, turned_before = _ankles(body, before)
+    at_later, turned_later = _ankles(body, ahead)
+    stretch = np.subtract(legs_to(body, *now, at), legs_to(body, *source.pose, source.goals.ankle_m))
+    later = np.subtract(legs_to(body, *ahead, at_later), legs_to(body, *source.later, source.goals_later.ankle_m))
+    residual.stretch[row] = stretch, (later - stretch) / moment_s
     for side in range(2):
-        offset = at[side] - goals.ankle_m[side]
+        offset = at[side] - source.goals.ankle_m[side]
         residual.ankles[row, 0, side] = offset
-        residual.ankles[row, 1, side] = (offset - (at_before[side] - goals_before.ankle_m[side])) / (MOMENT * TICK_S)
-        turn = np.array(inertialise.turn_from(goals.turned[side], turned[side]))
-        was = np.array(inertialise.turn_from(goals_before.turned[side], turned_before[side]))
+        residual.ankles[row, 1, side] = (at_later[side] - source.goals_later.ankle_m[side] - offset) / moment_s
+        turn = np.array(inertialise.turn_from(source.goals.turned[side], turned[side]))
+        to_be = np.array(inertialise.turn_from(source.goals_later.turned[side], turned_later[side]))
         residual.ankle_turns[row, 0, side] = turn
-        residual.ankle_turns[row, 1, side] = (turn - was) / (MOMENT * TICK_S)
+        residual.ankle_turns[row, 1, side] = (to_be - turn) / moment_s
 
 
 def _ankles(body, pose: Pose) -> tuple[np.ndarray, np.ndarray]:

@@ -7,11 +7,11 @@ from numba import njit
 
 from behaviours import feet as foot_plan
 from behaviours import seams
+from behaviours.blending import drop_beyond_own, legs_to
 from behaviours.components import Blend, Character, Feet, Phase, Playback, Posture, Ragdoll, Reaction, Residual
-from behaviours.inertialise import add_remaining, remaining, turned_by
+from behaviours.inertialise import add_remaining, remaining, remaining2, turned_by
 from behaviours.playing import body_of, clip_time_s, planted_in_clip
 from behaviours.sources import foot_goals, source_pose
-from engine.body.footing import drop_to_reach
 from engine.body.kinematics import joints_into
 from engine.body.limb_ik import apply_leg, leg_swivel
 from engine.body.skeleton import HIPS, JOINT_COUNT
@@ -31,29 +31,18 @@ def goals_with_residual(ankle_m, turned, ankles, ankle_turns, elapsed_s, half_li
 
 
 @njit(cache=True)
-def drops(body, root_m, rotations, ankle_m):
-    """How far the pelvis would have to sink for each foot to be in reach: (left, right), metres."""
-    positions = np.empty((JOINT_COUNT, 3))
-    joints_into(body.offset_m, root_m, rotations, positions, np.empty((JOINT_COUNT, 4)))
-    return (
-        drop_to_reach(body, positions[HIPS[0]], ankle_m[0], 0),
-        drop_to_reach(body, positions[HIPS[1]], ankle_m[1], 1),
-    )
-
-
-@njit(cache=True)
-def stand_on(body, root_m, rotations, ankle_m, turned, source_drops):
+def stand_on(body, root_m, rotations, ankle_m, turned, own_lengths):
     """Leg IK of both legs onto ankle goals (2, 3), (2, 4), in place. The knees stay where the least swing leaves them.
 
-    The pelvis sinks by what the residual has put out of reach beyond `source_drops`, the source's own: a residual that
-    is nothing changes nothing.
+    The pelvis sinks by what the residual has put out of reach, beyond `own_lengths` (2,): the legs' in the source, and what is
+    left of the last seam's. So a residual that is nothing changes nothing, and one that has just begun neither.
     """
     positions = np.empty((JOINT_COUNT, 3))
     orientations = np.empty((JOINT_COUNT, 4))
     joints_into(body.offset_m, root_m, rotations, positions, orientations)
     drop = 0.0
     for side in range(2):
-        drop = max(drop, drop_to_reach(body, positions[HIPS[side]], ankle_m[side], side) - source_drops[side])
+        drop = max(drop, drop_beyond_own(body, positions[HIPS[side]], ankle_m[side], side, own_lengths[side]))
     root_m[2] -= drop
     for j in range(JOINT_COUNT):
         positions[j, 2] -= drop
@@ -89,10 +78,12 @@ def settled_pose(world, row: int, tick: float) -> tuple[np.ndarray, np.ndarray]:
         return source.root_m, source.rotations
     goals = foot_goals(world, row, tick, source)
     elapsed_s, body = seams.elapsed_s(world, row, tick), body_of(world, row)
-    own = drops(body, source.root_m, source.rotations, goals.ankle_m)
+    left = remaining2(r.stretch[row], elapsed_s, half_life_s)
+    own = legs_to(body, source.root_m, source.rotations, goals.ankle_m)
+    own_lengths = (own[0] + left[0], own[1] + left[1])
     add_remaining(source.root_m, source.rotations, r.root[row], r.joints[row], elapsed_s, half_life_s)
     goals_with_residual(goals.ankle_m, goals.turned, r.ankles[row], r.ankle_turns[row], elapsed_s, half_life_s)
-    stand_on(body, source.root_m, source.rotations, goals.ankle_m, goals.turned, own)
+    stand_on(body, source.root_m, source.rotations, goals.ankle_m, goals.turned, own_lengths)
     return source.root_m, source.rotations
 
 

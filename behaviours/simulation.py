@@ -43,7 +43,7 @@ from behaviours.timing import TICK_S
 from engine.body.capsules import Capsules, body_capsules
 from engine.body.skeleton import Body
 from engine.clips.clip import Clip
-from engine.clips.mirror import mirror_clip
+from engine.clips.mirror import mirror_body, mirror_clip
 from engine.clips.playback import sample
 from engine.core.errors import BadInput
 from engine.core.journal import Command
@@ -70,6 +70,7 @@ class Assets:
     settings: Settings
     clips: tuple[Clip, ...]
     bodies: tuple[Body, ...]
+    mirrored_bodies: tuple[Body, ...]
     models: tuple[RagdollModel, ...]
     capsules: tuple[Capsules, ...]
     threats: tuple[ThreatSpec, ...]
@@ -86,7 +87,8 @@ def build_world(scenario: Scenario, find: FindClip) -> World:
     models = tuple(model_for(body) for body in bodies)
     capsules = tuple(body_capsules(body) for body in bodies)
     clips, libraries = gather_libraries(scenario, own, find, settings)
-    assets = Assets(settings, clips, bodies, models, capsules, scenario.threat, rows, libraries)
+    mirrored = tuple(mirror_body(body) for body in bodies)
+    assets = Assets(settings, clips, bodies, mirrored, models, capsules, scenario.threat, rows, libraries)
     world = World(COMPONENTS, scenario.seed, assets)
     for row, spec in zip(rows, scenario.character, strict=True):
         _spawn_character(world, row, spec)
@@ -125,7 +127,7 @@ def _spawn_character(world: World, row: int, spec: CharacterSpec) -> None:
         Posture(
             root_m=pose.root_m, rotations=pose.rotations, before_root_m=before.root_m, before_rotations=before.rotations
         ),
-        Character(body=row, startle=spec.startle, response_s=spec.response_s),
+        Character(body=row, startle=spec.startle, protects=spec.protects, response_s=spec.response_s),
         Reaction(threat=NOBODY),
         Blend(ticks=1.0),
         Sustained(root_m=pose.root_m, rotations=pose.rotations),

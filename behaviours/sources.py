@@ -10,7 +10,7 @@ import numpy as np
 from behaviours.blending import FootGoals, blend_end, blend_into
 from behaviours.components import Blend, Character, Feet, Phase, Ragdoll, Reaction
 from behaviours.feet import goals_of
-from behaviours.playing import body_of, clip_pose, clip_time_s
+from behaviours.playing import body_of, capsules_of, clip_pose, clip_time_s
 from behaviours.timing import TICK_S, ease, whole_ticks
 from engine.body.kinematics import joints_of
 from engine.body.skeleton import ANKLES, JOINT_COUNT, Pose
@@ -32,38 +32,46 @@ def source_pose(world, row: int, tick: float) -> Pose:
 
 
 def simulated_pose(world, row: int, tick: float) -> Pose:
-    """The physics' pose, `r.stepped` being the tick of its state; a moment off that, carried on by its velocities."""
+    """The physics' pose; between its last two ticks, the nearer one's carried there by its velocities."""
     doll = world[Ragdoll]
     model = world.assets.models[int(world[Character].body[row])]
-    return ragdoll.carried_on(model, doll.state[row], float(tick - doll.stepped[row]) * TICK_S)
+    since = float(tick - doll.stepped[row])
+    if since < -0.5:
+        return ragdoll.carried_on(model, doll.before[row], (since + 1.0) * TICK_S)
+    return ragdoll.carried_on(model, doll.state[row], since * TICK_S)
 
 
 def blended_pose(world, row: int, tick: float) -> Pose:
     """Between the two still ends of the present blend, at its clock (thesis 4.3)."""
+    return blended(world, row, tick)[0]
+
+
+def blended(world, row: int, tick: float) -> tuple[Pose, tuple[float, float]]:
+    """The same, and how far its hands were led off their straight lines to go round the body, metres."""
     b = world[Blend]
-    body = body_of(world, row)
-    start = blend_end(body, b.from_root_m[row].copy(), b.from_rotations[row].copy())
-    end = blend_end(body, b.to_root_m[row].copy(), b.to_rotations[row].copy())
+    body, shape = body_of(world, row), capsules_of(world, row)
+    start = blend_end(body, shape, b.from_root_m[row].copy(), b.from_rotations[row].copy())
+    end = blend_end(body, shape, b.to_root_m[row].copy(), b.to_rotations[row].copy())
     weight = ease((tick - b.since[row]) / b.ticks[row])
-    return _between(world, row, tick, body, start, end, weight)
+    return _between(world, row, tick, start, end, weight)
 
 
 def simulation_into_sustained(world, row: int, tick: float) -> Pose:
     """Recovery, part one: from the running simulation into the sequence of the return blend (thesis 4.1.3)."""
-    body = body_of(world, row)
+    body, shape = body_of(world, row), capsules_of(world, row)
     simulated, returning = simulated_pose(world, row, tick), blended_pose(world, row, tick)
     part_one = whole_ticks(world.assets.settings.recovery.part_one_s)
     weight = ease((tick - world[Reaction].since[row] + 1) / part_one)
-    start = blend_end(body, simulated.root_m, simulated.rotations)
-    end = blend_end(body, returning.root_m, returning.rotations)
-    return _between(world, row, tick, body, start, end, weight)
+    start = blend_end(body, shape, simulated.root_m, simulated.rotations)
+    end = blend_end(body, shape, returning.root_m, returning.rotations)
+    return _between(world, row, tick, start, end, weight)[0]
 
 
-def _between(world, row, tick, body, start, end, weight) -> Pose:
+def _between(world, row, tick, start, end, weight) -> tuple[Pose, tuple[float, float]]:
     root_m, rotations = np.empty(3), np.empty((JOINT_COUNT, 4))
-    goals = goals_of(world[Feet], row, tick)
-    blend_into(body, start, end, weight, int(world[Blend].support[row]), goals, root_m, rotations)
-    return Pose(root_m, rotations)
+    goals, support = goals_of(world[Feet], row, tick), int(world[Blend].support[row])
+    led_m = blend_into(body_of(world, row), capsules_of(world, row), start, end, weight, support, goals, root_m, rotations)
+    return Pose(root_m, rotations), led_m
 
 
 def foot_goals(world, row: int, tick: float, source: Pose) -> FootGoals:

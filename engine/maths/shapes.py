@@ -32,6 +32,20 @@ def distance_to_segment(start, end, point):
 
 
 @njit(cache=True)
+def nearest_between(start, end, other_start, other_end):
+    """Where along two segments, 0 to 1 each, they come nearest to each other (Ericson 2005, section 5.1.9)."""
+    u, v = vector.subtract(end, start), vector.subtract(other_end, other_start)
+    w = vector.subtract(start, other_start)
+    a, b, c = vector.inner(u, u), vector.inner(u, v), vector.inner(v, v)
+    d, e = vector.inner(u, w), vector.inner(v, w)
+    slant = a * c - b * b
+    s = min(max((b * e - c * d) / slant, 0.0), 1.0) if slant > 1e-12 * a * c else 0.0
+    t = min(max((b * s + e) / c, 0.0), 1.0) if c > 1e-18 else 0.0
+    s = min(max((b * t - d) / a, 0.0), 1.0) if a > 1e-18 else 0.0
+    return s, t
+
+
+@njit(cache=True)
 def outwards(start, end, point):
     """The unit direction from a segment to a point; straight across the segment where the point lies on it."""
     q = vector.mix(start, end, nearest_on_segment(start, end, point))

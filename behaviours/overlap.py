@@ -1,0 +1,53 @@
+"""What of a body is inside itself: hands and forearms in head, neck or trunk, or in those of the other side."""
+
+from __future__ import annotations
+
+import numpy as np
+from numba import njit
+
+from engine.body.capsules import CAPSULES, Capsules, body_capsules, capsules_at
+from engine.body.kinematics import joints_of
+from engine.body.skeleton import Body, Pose
+from engine.maths import vector
+from engine.maths.shapes import nearest_between
+
+TRUNK = ("pelvis", "belly", "chest", "upper_chest", "head")
+ARMS = tuple((f"{side}_forearm", f"{side}_hand") for side in ("left", "right"))
+# every hand and forearm against trunk and head, then against both of the other side
+PAIRS = np.array(
+    [(CAPSULES.index(arm), CAPSULES.index(trunk)) for arms in ARMS for arm in arms for trunk in TRUNK]
+    + [(CAPSULES.index(left), CAPSULES.index(right)) for left in ARMS[0] for right in ARMS[1]]
+)
+
+# of every capsule: which side's arm it belongs to (-1: no arm), and whether it is the hand
+ARM_CAPSULES = np.array(
+    [
+        next(((side, part) for side in range(2) for part in range(2) if ARMS[side][part] == name), (-1, 0))
+        for name in CAPSULES
+    ]
+)
+
+
+@njit(cache=True)
+def depths_into(ends, radius_m, pairs, out):
+    """How deep the capsules of each pair (P, 2) lie in each other, metres; negative when apart. ends (C, 2, 3)."""
+    for n in range(len(pairs)):
+        a, b = pairs[n]
+        s, t = nearest_between(ends[a, 0], ends[a, 1], ends[b, 0], ends[b, 1])
+        apart = vector.distance(vector.mix(ends[a, 0], ends[a, 1], s), vector.mix(ends[b, 0], ends[b, 1], t))
+        out[n] = radius_m[a] + radius_m[b] - apart
+
+
+def overlaps_m(body: Body, poses: Pose) -> np.ndarray:
+    """(T, P) depth of each of PAIRS in each of T poses, metres; negative when apart."""
+    capsules: Capsules = body_capsules(body)
+    out = np.empty((len(poses.root_m), len(PAIRS)))
+    for k in range(len(out)):
+        pose = Pose(np.ascontiguousarray(poses.root_m[k]), np.ascontiguousarray(poses.rotations[k]))
+        depths_into(capsules_at(capsules, *joints_of(body, pose)), capsules.radius_m, PAIRS, out[k])
+    return out
+
+
+def pair_name(row: int) -> str:
+    """The words for one of PAIRS."""
+    return " in ".join(CAPSULES[c] for c in PAIRS[row])
