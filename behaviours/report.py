@@ -7,11 +7,13 @@ from typing import Any
 import numpy as np
 
 from behaviours import measures
-from behaviours.components import Phase, Reaction
+from behaviours.components import Phase
 from behaviours.observing import Track
 from behaviours.overlap import overlaps_m
 from behaviours.timing import TICK_S
 from engine.body.limits import excess_rad
+
+REACTED = (Phase.STARTLE, Phase.PROTECT, Phase.HOLD, Phase.RESPOND, Phase.DOWN)  # the way back comes after these
 
 
 def event_rows(world) -> list[dict[str, Any]]:
@@ -40,7 +42,6 @@ def metrics_of(world, row: int, track: Track) -> dict[str, Any]:
     head_g = measures.head_acceleration_g(track)
     place, speed = measures.seam_jumps(track)
     overlap, between = measures.overlap_max_m(track, clips_overlap_m(clips))
-    phase = Phase(int(world[Reaction].phase[row]))
     return {
         "ttc_s": perceived[0]["ttc_s"] if perceived else None,
         "contact_error_s": contacts[0]["late_s"] if contacts else None,
@@ -56,7 +57,7 @@ def metrics_of(world, row: int, track: Track) -> dict[str, Any]:
         "overlap_between": between,
         "seam_position_jump_max_m": place,
         "seam_velocity_jump_max_mps": speed,
-        "recovered_to": recovered_to(track, world.assets.clips[track.clip[-1]].name, phase),
+        "recovered_to": recovered_to(track, world.assets.clips),
     }
 
 
@@ -70,12 +71,15 @@ def clips_overlap_m(clips) -> np.ndarray:
     return np.max([overlaps_m(clip.body, clip.pose).max(axis=0) for clip in clips], axis=0)
 
 
-def recovered_to(track: Track, clip_name: str, phase: Phase) -> str | None:
-    """The clip that was taken up again after a reaction; None if there was none or it is not over; "down" after a fall."""
-    if phase == Phase.DOWN:
-        return "down"
-    reacted = any(p != Phase.PLAY for p in track.phase)
-    return clip_name if reacted and phase == Phase.PLAY else None
+def recovered_to(track: Track, clips) -> str | None:
+    """The clip taken up after the last reaction; None if there was none or it is not over; "down" after a fall."""
+    last = max((k for k, phase in enumerate(track.phase) if phase in REACTED), default=None)
+    if last is None:
+        return None
+    if last == len(track.phase) - 1:
+        return "down" if track.phase[last] == Phase.DOWN else None
+    played = [clip for clip, phase in zip(track.clip[last:], track.phase[last:], strict=True) if phase == Phase.PLAY]
+    return clips[played[0]].name if played else None
 
 
 def report_of(world, tracks: dict[int, Track]) -> dict[str, Any]:

@@ -7,6 +7,7 @@ The motion under the physics since the blow is compared with every window of the
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
@@ -49,14 +50,27 @@ class Found(NamedTuple):
 
 
 def best_window(
-    index: MotionIndex, window: Window, kind: str, velocity_s: float, candidates: int, but_clip: int = -1
+    index: MotionIndex,
+    window: Window,
+    kind: str,
+    velocity_s: float,
+    candidates: int,
+    *,
+    but_clip: int | None = None,
+    only_clip: int | None = None,
 ) -> Found | None:
     """The window of an index (its "standing" or "rising" ones) that is nearest to this one; None if there is none.
 
     The k-d tree brings the rows whose last sample is about as it should be; these are compared exactly, in the order of
-    clips and time, so that of equals the first is found. but_clip: the number of a clip that does not count.
+    clips and time, so that of equals the first is found. but_clip, only_clip: the number of a clip that does not
+    count, or alone does.
     """
-    rows = likely_rows(index, window, kind, velocity_s, candidates, but_clip)
+
+    def counts(rows: np.ndarray) -> np.ndarray:
+        clip = index.clip[rows]
+        return np.not_equal(clip, but_clip) if only_clip is None else np.equal(clip, only_clip)
+
+    rows = likely_rows(index, window, kind, velocity_s, candidates, counts)
     if len(rows) == 0:
         return None
     row, square, yaw, x, y = nearest_of(
@@ -67,23 +81,28 @@ def best_window(
 
 
 def likely_rows(
-    index: MotionIndex, window: Window, kind: str, velocity_s: float, candidates: int, but_clip: int
+    index: MotionIndex,
+    window: Window,
+    kind: str,
+    velocity_s: float,
+    candidates: int,
+    counts: Callable[[np.ndarray], np.ndarray],
 ) -> np.ndarray:
-    """Ascending rows of a kind, the `candidates` nearest by the features of the last sample."""
+    """Ascending rows of a kind, the `candidates` nearest by the features of the last sample, of those that count."""
     prefilter = index.trees[kind]
     if prefilter.tree is None:
         return np.empty(0, np.int64)
     feature = np.empty(FEATURES)
     features_into(window.joints_m[0], window.joints_mps[0], index.share, velocity_s, feature)
-    wanted = candidates
+    asked = candidates
     while True:
-        wanted = min(wanted, len(prefilter.rows))
-        _, near = prefilter.tree.query(feature, k=np.arange(1, wanted + 1))
+        asked = min(asked, len(prefilter.rows))
+        _, near = prefilter.tree.query(feature, k=np.arange(1, asked + 1))
         rows = prefilter.rows[near]
-        rows = rows[index.clip[rows] != but_clip][:candidates]
-        if len(rows) >= candidates or wanted == len(prefilter.rows):
+        rows = rows[counts(rows)][:candidates]
+        if len(rows) >= candidates or asked == len(prefilter.rows):
             return np.sort(rows)
-        wanted *= 4
+        asked *= 4
 
 
 def remember(world, row: int, joints_m) -> None:
@@ -131,15 +150,15 @@ def choose_return(world, row: int) -> None:
     window = window_since_blow(world, row)
     size_m = reaction_size_m(world, row, window, index.share, settings.velocity_s)
     if recover == Recover.AUTO and size_m <= settings.auto_over_m:
-        world.emit("searched", world.entity(row), reaction_m=size_m, chosen="same", compared=0)
+        world.emit("searched", world.entity(row), chosen="same", reaction_m=size_m)
         return
-    own = -1 if settings.own_clip else library.clip_rows.index(int(p.clip[row]))
-    found = best_window(index, window, "standing", settings.velocity_s, settings.candidates, own)
+    own = None if settings.own_clip else library.clip_rows.index(int(p.clip[row]))
+    found = best_window(index, window, "standing", settings.velocity_s, settings.candidates, but_clip=own)
     if found is None:
-        world.emit("searched", world.entity(row), reaction_m=size_m, chosen="same", compared=0)
+        world.emit("searched", world.entity(row), chosen="same", reaction_m=size_m)
         return
     enter_window(world, row, library, found)
-    say_found(world, row, library, found, size_m)
+    say_found(world, row, found, "new", reaction_m=size_m)
 
 
 def enter_window(world, row: int, library: Library, found: Found) -> None:
@@ -150,18 +169,18 @@ def enter_window(world, row: int, library: Library, found: Found) -> None:
     world[Reaction].clip_s[row] = found.time_s
 
 
-def say_found(world, row: int, library: Library, found: Found, size_m: float) -> None:
+def say_found(world, row: int, found: Found, chosen: str, **more: float) -> None:
     """The event of a search that found something."""
-    clip = world.assets.clips[library.clip_rows[found.clip]]
+    library = world.assets.libraries[row]
     world.emit(
         "searched",
         world.entity(row),
-        reaction_m=size_m,
-        chosen="new",
+        chosen=chosen,
         windows=len(library.index.clip),
         compared=found.compared,
-        clip=clip.name,
+        clip=world.assets.clips[library.clip_rows[found.clip]].name,
         window_ends_s=found.time_s,
         entered_s=found.time_s + world.assets.settings.timing.sustained_ahead_s,
         distance_m=found.distance_m,
+        **more,
     )

@@ -26,6 +26,8 @@ from behaviours.components import (
     Sustained,
 )
 from behaviours.flying import fly_balls
+from behaviours.getting_up import get_up
+from behaviours.going_on import go_on
 from behaviours.launching import launch_threats, throw
 from behaviours.library import FindClip, gather_libraries
 from behaviours.observing import Observer
@@ -57,6 +59,8 @@ SYSTEMS = (
     launch_threats,
     watch_free_threats,
     advance_reactions,
+    get_up,
+    go_on,
     notice,
     step_bodies,
     settle_poses,
