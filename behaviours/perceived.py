@@ -7,6 +7,7 @@ from typing import NamedTuple
 import numpy as np
 from numba import njit
 
+from engine.body.capsules import CAPSULES, body_capsules
 from engine.body.skeleton import BACK, HEAD, JOINTS, NECK, PELVIS, Body, joint_index
 from engine.maths import quaternion, vector
 
@@ -31,15 +32,10 @@ class PerceivedThreat(NamedTuple):
 
 
 def head_centre_m(body: Body) -> tuple[float, float, float]:
-    """The middle of the skull in the head's frame: below the crown by the skull's radius."""
-    top = body.head_top_m
-    share = 1.0 - head_radius_m(body) / max(float(np.sqrt(np.sum(top * top))), 1e-9)
-    return (float(top[0]) * share, float(top[1]) * share, float(top[2]) * share)
-
-
-def head_radius_m(body: Body) -> float:
-    """Half the skull's depth and height, taken as one: 0.7 of what the crown stands above the head's joint."""
-    return 0.7 * float(np.sqrt(np.sum(body.head_top_m * body.head_top_m)))
+    """The middle of the head's capsule, in the head's frame."""
+    capsules, head = body_capsules(body), CAPSULES.index("head")
+    x, y, z = 0.5 * (capsules.start_m[head] + capsules.end_m[head])
+    return (float(x), float(y), float(z))
 
 
 def aim_of(body: Body, name: str) -> tuple[int, tuple[float, float, float]]:
@@ -60,7 +56,7 @@ def target_centre(joint, offset_m, positions, orientations):
     """Where the target is in a pose (J, 3), (J, 4): world metres."""
     if joint < 0:
         return (offset_m[0] * 1.0, offset_m[1] * 1.0, offset_m[2] * 1.0)
-    return vector.add(positions[joint], quaternion.rotate(orientations[joint], offset_m))
+    return vector.add(vector.at(positions, joint), quaternion.rotate(quaternion.at(orientations, joint), offset_m))
 
 
 def target_weights(body: Body, target_m, positions: np.ndarray, orientations: np.ndarray) -> tuple[float, float]:

@@ -27,7 +27,7 @@ def pull_pelvis(body, positions, feet, leg_share):
     shift = np.zeros(3)
     for _ in range(PULLS):
         for side in range(2):
-            hip, ankle = positions[HIPS[side]], feet.ankle_m[side]
+            hip, ankle = vector.at(positions, HIPS[side]), vector.at(feet.ankle_m, side)
             leg = (hip[0] + shift[0] - ankle[0], hip[1] + shift[1] - ankle[1], hip[2] + shift[2] - ankle[2])
             long, reach = vector.length(leg), leg_length_m(body, side) * leg_share
             if feet.held[side] and long > reach:

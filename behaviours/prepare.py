@@ -8,9 +8,9 @@ import numpy as np
 from numba import njit
 
 from behaviours import plant
-from behaviours.apply_rules import place_trunk
+from behaviours.apply_rules import hang_leg, place_trunk
 from behaviours.perceived import PerceivedThreat, target_centre
-from behaviours.rules.controls import controls_from_threat
+from behaviours.rules.controls import LEAN, TURN, controls_from_threat
 from behaviours.rules.turn import turn_side, wanted_turn
 from behaviours.rules.wrap import wrap_share
 from behaviours.settings import Settings
@@ -58,7 +58,7 @@ def prepare(
     )  # fmt: skip
     legs_ahead = [landing or not stands for stands in feet.held]
     start = start_pose(body, pose_now, pose_ahead, legs_ahead)
-    task = Task(bones_of(body), start, feet, threat, _no_choices(), rules_of(settings))
+    task = Task(*bones_of(body), start, feet, threat, _no_choices(), rules_of(settings))
     task = task._replace(choices=choose_turn(task, settings, previous_turn_side))
 
     # the pelvis turns and leans, then is drawn within reach of the planted feet, then the foot in the air is set down
@@ -102,14 +102,17 @@ def start_pose(body: Body, pose_now: Pose, pose_ahead: Pose, legs_ahead) -> Star
 def _widened_limits(low, high, rotations, out_low, out_high):
     """A clip's own excess is kept: each limit it oversteps is moved out to where the clip stands."""
     for j in range(JOINT_COUNT):
-        own = components(rotations[j])
+        own = components(quaternion.at(rotations, j))
         for k in range(3):
             out_low[j, k] = min(low[j, k], own[k])
             out_high[j, k] = max(high[j, k], own[k])
 
 
 def rules_of(settings: Settings) -> Rules:
-    return Rules(settings.lean_turn, settings.recoil, settings.block, settings.wrap, settings.pelvis)
+    return Rules(
+        settings.lean_turn, settings.recoil, settings.block, settings.wrap, settings.pelvis,
+        settings.balance.limit_margin_rad,
+    )  # fmt: skip
 
 
 def _no_choices() -> Choices:
@@ -119,13 +122,14 @@ def _no_choices() -> Choices:
 @njit(cache=True)
 def place_hips(task, controls, posed):
     """Trunk and hips of the rules pose with the pelvis where the start pose has it."""
-    place_trunk(task, np.zeros(3), controls, posed)
+    start, offset_m = task.start, task.bones.offset_m
+    place_trunk(
+        vector.at(start.root_m.reshape(1, 3), 0), controls[LEAN], controls[TURN], start.heading_rad,
+        task.threat, task.choices, task.rules, offset_m, start.rotations, start.orientations,
+        start.low_rad, start.high_rad, posed.rotations, posed.positions, posed.orientations,
+    )  # fmt: skip
     for side in range(2):
-        hip = HIPS[side]
-        at = vector.add(
-            posed.positions[PELVIS], quaternion.rotate(posed.orientations[PELVIS], task.bones.offset_m[hip])
-        )
-        posed.positions[hip, 0], posed.positions[hip, 1], posed.positions[hip, 2] = at
+        hang_leg(side, offset_m, start.rotations, posed.rotations, posed.positions, posed.orientations)
 
 
 def choose_turn(task: Task, settings: Settings, previous_turn_side: float) -> Choices:

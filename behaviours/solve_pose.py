@@ -33,6 +33,7 @@ def solve_bfgs(task, reference, form, start, posed, offset, tolerance, iteration
     """BFGS on the total error from `start` (10,), see behaviours.minimise; `form` as in total_error."""
     controls, residuals = np.empty(CONTROL_COUNT), np.empty(RESIDUALS)
     search = minimise.new_search(start)
+    posed.made_from[:] = np.nan
     initial = np.nan
     while not minimise.finished(search):
         residuals_into(task, reference, search.trial, controls, posed, residuals)
@@ -86,6 +87,7 @@ def solve_least_squares(task, reference, start, posed, tolerance, iterations):
     residuals, trial_residuals = np.empty(RESIDUALS), np.empty(RESIDUALS)
     behind, trial, step = np.empty(RESIDUALS), np.empty(VARIABLES), np.empty(VARIABLES)
     jacobian, matrix, slope = np.empty((RESIDUALS, VARIABLES)), np.empty((VARIABLES, VARIABLES)), np.empty(VARIABLES)
+    posed.made_from[:] = np.nan
     residuals_into(task, reference, point, controls, posed, residuals)
     _weigh(reference, residuals)
     value = initial = _sum_of_squares(residuals)

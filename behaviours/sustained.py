@@ -153,7 +153,7 @@ def refer_to(task: Task, posed: Posed, com_m, controls, settings: Settings) -> R
     wanted = com_m[:2] + settings.balance.brace_m * towards
     weights = (
         o.balance_weight, o.hands_weight, o.torso_weight, o.pelvis_height_weight, o.feet_weight,
-        o.control_weight, o.outside_weight,
+        o.control_weight, o.limits_weight, o.outside_weight,
     )  # fmt: skip
     return Reference(
         (float(wanted[0]), float(wanted[1])),
@@ -190,8 +190,8 @@ def pose_exactly(task, shift, controls, posed, tolerance_m):
 @njit(cache=True)
 def _give(task, side, posed, given):
     """Adds to `given` what brings one hip within reach of its foot."""
-    hip, ankle = posed.positions[HIPS[side]], task.feet.ankle_m[side]
-    reach = task.bones.leg_m[side] - 1e-6
+    hip, ankle = vector.at(posed.positions, HIPS[side]), vector.at(task.feet.ankle_m, side)
+    reach = task.build.leg_m[side] - 1e-6
     x, y, z = hip[0] - ankle[0], hip[1] - ankle[1], hip[2] - ankle[2]
     level = reach * reach - x * x - y * y
     if level > 0.25 * reach * reach:

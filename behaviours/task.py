@@ -10,20 +10,29 @@ from typing import NamedTuple
 import numpy as np
 from numba import njit
 
-from behaviours.perceived import PerceivedThreat, head_centre_m, head_radius_m
+from behaviours.perceived import PerceivedThreat, head_centre_m
 from behaviours.settings import Block, LeanTurn, Pelvis, Recoil, Wrap
-from engine.body.skeleton import ELBOWS, JOINT_COUNT, KNEES, WRISTS, ANKLES, Body
+from engine.body.capsules import CAPSULES, body_capsules
+from engine.body.skeleton import ANKLES, ELBOWS, JOINT_COUNT, KNEES, WRISTS, Body
 
 Triple = tuple[float, float, float]
+OBSTACLES = ("belly", "chest", "upper_chest", "head")
 
 
 class Bones(NamedTuple):
-    """What kernels need of a Body. No more: a whole body costs more to hand on than a limb to solve."""
+    """The arrays that kernels need of a Body."""
 
     offset_m: np.ndarray  # (J, 3)
     part_joint: np.ndarray  # (P,)
     part_mass_kg: np.ndarray  # (P,)
     part_com_m: np.ndarray  # (P, 3)
+    obstacle_joint: np.ndarray  # (C,) what arms must clear: the capsules of OBSTACLES
+    obstacle_m: np.ndarray  # (C, 2, 3) their ends in those joints' frames
+
+
+class Build(NamedTuple):
+    """The numbers that kernels need of a Body; pairs are left, right."""
+
     palm_m: tuple[Triple, Triple]  # in the wrists' frames
     arm_m: tuple[float, float]  # shoulder to wrist, stretched
     leg_m: tuple[float, float]  # hip to ankle, stretched
@@ -31,6 +40,9 @@ class Bones(NamedTuple):
     knee_rad: tuple[float, float]
     head_centre_m: Triple  # in the head's frame
     head_radius_m: float
+    hand_radius_m: float
+    arm_radius_m: tuple[float, float]
+    obstacle_radius_m: tuple[float, float, float, float]  # of OBSTACLES
 
 
 class Start(NamedTuple):
@@ -72,12 +84,14 @@ class Rules(NamedTuple):
     block: Block
     wrap: Wrap
     pelvis: Pelvis
+    limit_margin_rad: float  # limbs keep this far inside their limits
 
 
 class Task(NamedTuple):
     """All of it."""
 
     bones: Bones
+    build: Build
     start: Start
     feet: FeetPlan
     threat: PerceivedThreat
@@ -93,30 +107,48 @@ class Posed(NamedTuple):
     orientations: np.ndarray  # (J, 4) world
     palms: np.ndarray  # (2, 3) world
     foot_miss_m: np.ndarray  # (2,) how far each held foot is from where it should stand
+    trouble: np.ndarray  # (4,) what limits and trunk still forbid, radians: left and right leg, left and right arm
+    obstacles: np.ndarray  # (C, 6) both ends of what arms must clear, in the world
+    made_from: np.ndarray  # (3, 6) what trunk and legs, left and right arm were last made from; see apply_rules
 
 
-def bones_of(body: Body) -> Bones:
+def bones_of(body: Body) -> tuple[Bones, Build]:
     """What kernels need of a body."""
-    palms = [tuple(float(v) for v in palm) for palm in body.palm_m]
+    capsules, row = body_capsules(body), CAPSULES.index
+    obstacles = [row(name) for name in OBSTACLES]
     lengths_m = np.sqrt(np.sum(body.offset_m**2, axis=1))
-    arm, leg = (lengths_m[list(a)] + lengths_m[list(b)] for a, b in ((ELBOWS, WRISTS), (KNEES, ANKLES)))
-    return Bones(
+    bones = Bones(
         body.offset_m,
         body.part_joint,
         body.part_mass_kg,
         body.part_com_m,
-        (palms[0], palms[1]),
-        (float(arm[0]), float(arm[1])),
-        (float(leg[0]), float(leg[1])),
-        (float(-body.limit_low_rad[ELBOWS[0], 1]), float(-body.limit_low_rad[ELBOWS[1], 1])),
-        (float(body.limit_high_rad[KNEES[0], 1]), float(body.limit_high_rad[KNEES[1], 1])),
-        head_centre_m(body),
-        head_radius_m(body),
+        capsules.joint[obstacles],
+        np.stack([capsules.start_m[obstacles], capsules.end_m[obstacles]], axis=1),
     )
+    build = Build(
+        tuple(tuple(palm.tolist()) for palm in body.palm_m),
+        tuple((lengths_m[list(ELBOWS)] + lengths_m[list(WRISTS)]).tolist()),
+        tuple((lengths_m[list(KNEES)] + lengths_m[list(ANKLES)]).tolist()),
+        tuple((-body.limit_low_rad[list(ELBOWS), 1]).tolist()),
+        tuple(body.limit_high_rad[list(KNEES), 1].tolist()),
+        head_centre_m(body),
+        float(capsules.radius_m[row("head")]),
+        float(capsules.radius_m[row("left_hand")]),
+        tuple(capsules.radius_m[[row("left_upper_arm"), row("right_upper_arm")]].tolist()),
+        tuple(capsules.radius_m[obstacles].tolist()),
+    )
+    return bones, build
 
 
 @njit(cache=True)
 def new_posed():
     return Posed(
-        np.empty((JOINT_COUNT, 4)), np.empty((JOINT_COUNT, 3)), np.empty((JOINT_COUNT, 4)), np.zeros((2, 3)), np.zeros(2)
+        np.empty((JOINT_COUNT, 4)),
+        np.empty((JOINT_COUNT, 3)),
+        np.empty((JOINT_COUNT, 4)),
+        np.zeros((2, 3)),
+        np.zeros(2),
+        np.zeros(4),
+        np.zeros((len(OBSTACLES), 6)),
+        np.full((3, 6), np.nan),
     )

@@ -15,21 +15,21 @@ from typing import NamedTuple
 import numpy as np
 from numba import njit
 
-from behaviours.apply_rules import apply_rules
+from behaviours.apply_rules import update_pose
 from behaviours.rules.controls import CONTROL_COUNT
 from engine.body.kinematics import centre_of_mass
-from engine.body.limb_ik import SOFT_REACH_M
+from engine.body.two_bones import SOFT_REACH_M
 from engine.body.skeleton import ANKLES, PELVIS
 from engine.maths import quaternion
 
-TERMS = ("balance", "hands", "torso", "pelvis_height", "feet", "controls", "outside")
+TERMS = ("balance", "hands", "torso", "pelvis_height", "feet", "controls", "limits", "outside")
 VARIABLES = 3 + CONTROL_COUNT
 FORMS = ("squares", "literal", "smoothed")
 SQUARES, LITERAL, SMOOTHED = range(len(FORMS))
 
 # where each term's residuals begin; the norms of the literal form are taken over runs of two or three of them
-BALANCE, HANDS, TORSO, HEIGHT, FEET, CONTROLS, OUTSIDE, RESIDUALS = 0, 2, 8, 17, 18, 24, 31, 38
-BEGIN = (BALANCE, HANDS, TORSO, HEIGHT, FEET, CONTROLS, OUTSIDE, RESIDUALS)
+BALANCE, HANDS, TORSO, HEIGHT, FEET, CONTROLS, LIMITS, OUTSIDE, RESIDUALS = 0, 2, 8, 17, 18, 24, 31, 35, 42
+BEGIN = (BALANCE, HANDS, TORSO, HEIGHT, FEET, CONTROLS, LIMITS, OUTSIDE, RESIDUALS)
 
 
 class Reference(NamedTuple):
@@ -40,22 +40,23 @@ class Reference(NamedTuple):
     trunk: np.ndarray  # (3, 4) world orientations of pelvis, waist, back
     pelvis_z: float
     controls: np.ndarray  # (7,)
-    weights: tuple[float, float, float, float, float, float, float]  # one a term
+    weights: tuple[float, float, float, float, float, float, float, float]  # one a term
     smoothing_m: float
 
 
-@njit(cache=True)
+@njit(cache=True, forceinline=True)
 def residuals_into(task, reference, variables, controls, posed, residuals):
-    """Writes the unweighted residuals (38,), and the pose that the variables give. controls (7,) is scratch.
+    """Writes the unweighted residuals (42,), and the pose that the variables give. controls (7,) is scratch.
 
-    A control outside [0, 1] acts as if it stood on the bound; how far it is outside is a residual of its own.
+    A control outside [0, 1] acts as if it stood on the bound; how far it is outside is a residual of its own. `posed` may
+    have been used before, but for the same task only: see apply_rules.update_pose.
     """
     for i in range(CONTROL_COUNT):
         value = variables[3 + i]
         controls[i] = min(1.0, max(0.0, value))
         residuals[CONTROLS + i] = controls[i] - reference.controls[i]
         residuals[OUTSIDE + i] = value - controls[i]
-    apply_rules(task, variables, controls, SOFT_REACH_M, posed)
+    update_pose(task, variables, controls, SOFT_REACH_M, posed)
     com = centre_of_mass(task.bones, posed.positions, posed.orientations)
     residuals[BALANCE] = com[0] - reference.com_wanted_m[0]
     residuals[BALANCE + 1] = com[1] - reference.com_wanted_m[1]
@@ -66,10 +67,13 @@ def residuals_into(task, reference, variables, controls, posed, residuals):
             residuals[FEET + 3 * side + k] = missed if task.feet.held[side] else 0.0
     for joint in range(3):
         # sin(angle / 2): the vector part of the turn between the two orientations
-        turn = quaternion.multiply(quaternion.conjugate(reference.trunk[joint]), posed.orientations[joint])
+        was = quaternion.at(reference.trunk, joint)
+        turn = quaternion.multiply(quaternion.conjugate(was), quaternion.at(posed.orientations, joint))
         for k in range(3):
             residuals[TORSO + 3 * joint + k] = turn[1 + k]
     residuals[HEIGHT] = posed.positions[PELVIS, 2] - reference.pelvis_z
+    for limb in range(4):
+        residuals[LIMITS + limb] = posed.trouble[limb]
 
 
 @njit(cache=True)
@@ -89,6 +93,8 @@ def _sum_of_norms(residuals, smoothing_m):
     for first in (HANDS, HANDS + 3, TORSO, TORSO + 3, TORSO + 6, FEET, FEET + 3):
         total += math.sqrt(_norm(residuals, first, 3) ** 2 + s * s) - s
     total += math.sqrt(residuals[HEIGHT] ** 2 + s * s) - s
+    for limb in range(4):
+        total += residuals[LIMITS + limb]
     for i in range(CONTROL_COUNT):
         total += residuals[OUTSIDE + i] ** 2
     return total

@@ -7,6 +7,8 @@ from numba import njit
 from engine.body.skeleton import BACK, NECK, PELVIS, WAIST
 from engine.maths import quaternion
 
+SPINE = (PELVIS, WAIST, BACK, NECK)
+
 
 @njit(cache=True)
 def lean_angles(direction, greatest, lean):
@@ -19,29 +21,21 @@ def lean_angles(direction, greatest, lean):
 
 
 @njit(cache=True)
-def _lean_joint(rotations, orientations, joint, heading_rad, angles, share):
-    """Turns one joint about the heading's horizontal axes, carried into the joint's frame as the clip has it.
-
-    Clip-local axes would lean up to 16 degrees astray. `orientations` are the clip's, before any rule.
-    """
-    in_world = quaternion.rotate(quaternion.about_z(heading_rad), (angles[0] * share, angles[1] * share, 0.0))
-    in_joint = quaternion.unrotate(orientations[joint], in_world)
-    rotation = quaternion.multiply(rotations[joint], quaternion.from_rotation_vector(in_joint))
-    rotations[joint, 0], rotations[joint, 1], rotations[joint, 2], rotations[joint, 3] = rotation
-
-
-@njit(cache=True)
 def lean_away(rotations, orientations, heading_rad, direction, lean, maxima, head_weight, pelvis_weight, pelvis_sign):
-    """Leans neck, back, waist and pelvis in place: rotations (J, 4) local; orientations (J, 4) of the clip, world.
+    """Leans pelvis, waist, back and neck in place: rotations (J, 4) local; orientations (J, 4) of the clip, world.
 
-    The two weights mix the responses for a threat to the head and one to the pelvis (3.4, eq. 3.4): the latter
-    leans the pelvis alone, towards the threat (`pelvis_sign` negative). `maxima` is the settings' LeanTurn group.
+    Each turns about the heading's horizontal axes, carried into its own frame as the clip has it: clip-local axes would
+    lean up to 16 degrees astray. The two weights mix the responses for a threat to the head and one to the pelvis (3.4,
+    eq. 3.4): the latter leans the pelvis alone, towards the threat (`pelvis_sign` negative). `maxima` is the settings'
+    LeanTurn group.
     """
-    neck = lean_angles(direction, maxima.neck_rad, lean)
-    back = lean_angles(direction, maxima.back_rad, lean)
-    waist = lean_angles(direction, maxima.waist_rad, lean)
-    pelvis = lean_angles(direction, maxima.pelvis_rad, lean)
-    _lean_joint(rotations, orientations, NECK, heading_rad, neck, head_weight)
-    _lean_joint(rotations, orientations, BACK, heading_rad, back, head_weight)
-    _lean_joint(rotations, orientations, WAIST, heading_rad, waist, head_weight)
-    _lean_joint(rotations, orientations, PELVIS, heading_rad, pelvis, head_weight + pelvis_sign * pelvis_weight)
+    greatest = (maxima.pelvis_rad, maxima.waist_rad, maxima.back_rad, maxima.neck_rad)
+    from_heading = quaternion.about_z(heading_rad)
+    for i in range(len(SPINE)):
+        joint = SPINE[i]
+        share = head_weight + pelvis_sign * pelvis_weight if joint == PELVIS else head_weight
+        x, y = lean_angles(direction, greatest[i], lean)
+        in_world = quaternion.rotate(from_heading, (x * share, y * share, 0.0))
+        in_joint = quaternion.unrotate(quaternion.at(orientations, joint), in_world)
+        turn = quaternion.from_rotation_vector(in_joint)
+        quaternion.put(rotations, joint, quaternion.multiply(quaternion.at(rotations, joint), turn))

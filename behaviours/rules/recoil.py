@@ -10,8 +10,7 @@ from engine.maths import quaternion
 
 @njit(cache=True)
 def _turn_joint(rotations, joint, turn):
-    rotation = quaternion.multiply(rotations[joint], turn)
-    rotations[joint, 0], rotations[joint, 1], rotations[joint, 2], rotations[joint, 3] = rotation
+    quaternion.put(rotations, joint, quaternion.multiply(quaternion.at(rotations, joint), turn))
 
 
 @njit(cache=True)

@@ -6,7 +6,7 @@ import math
 
 from numba import njit
 
-from engine.body.skeleton import BACK, NECK, PELVIS, WAIST
+from behaviours.rules.lean import SPINE
 from engine.maths import quaternion
 
 TURN_LEFT, TURN_RIGHT = 1.0, -1.0
@@ -45,26 +45,19 @@ def _within(angle_rad, greatest_rad):
 
 @njit(cache=True)
 def turn_angles(wanted_rad, turn, maxima):
-    """What neck, back, waist and pelvis each contribute, radians: the neck first, the trunk shares what remains."""
+    """What pelvis, waist, back and neck each contribute, radians: the neck first, the trunk shares what remains."""
     neck = _within(wanted_rad, maxima.neck_rad[2])
     left_over = wanted_rad - neck
     back = _within(left_over * maxima.back_share, maxima.back_rad[2])
     waist = _within(left_over * maxima.waist_share, maxima.waist_rad[2])
     pelvis = _within(left_over * maxima.pelvis_share, maxima.pelvis_rad[2])
-    return (neck * turn, back * turn, waist * turn, pelvis * turn)
-
-
-@njit(cache=True)
-def _turn_joint(rotations, joint, angle_rad):
-    rotation = quaternion.multiply(rotations[joint], quaternion.about_z(angle_rad))
-    rotations[joint, 0], rotations[joint, 1], rotations[joint, 2], rotations[joint, 3] = rotation
+    return (pelvis * turn, waist * turn, back * turn, neck * turn)
 
 
 @njit(cache=True)
 def turn_away(rotations, wanted_rad, turn, maxima):
     """Turns each joint about its own Z, as the lean has left it, in place. `maxima` is the settings' LeanTurn group."""
-    neck, back, waist, pelvis = turn_angles(wanted_rad, turn, maxima)
-    _turn_joint(rotations, NECK, neck)
-    _turn_joint(rotations, BACK, back)
-    _turn_joint(rotations, WAIST, waist)
-    _turn_joint(rotations, PELVIS, pelvis)
+    angles = turn_angles(wanted_rad, turn, maxima)
+    for i in range(len(SPINE)):
+        turned = quaternion.multiply(quaternion.at(rotations, SPINE[i]), quaternion.about_z(angles[i]))
+        quaternion.put(rotations, SPINE[i], turned)

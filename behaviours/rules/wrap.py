@@ -27,10 +27,11 @@ def wrap_share(torso_x, towards_threat, group):
 
 
 @njit(cache=True)
-def wrapped_palm(side, head_centre, head, head_radius_m, group):
-    """Where one palm centre goes: behind the head, in the world. `head` is the head's orientation."""
+def wrapped_palm(side, head_centre, head, apart_m, group):
+    """Where one palm centre goes: behind the head, in the world. `head` is the head's orientation; apart_m
+    from the head's middle to the hand's, where they touch."""
     outward = 1.0 if side == LEFT else -1.0
-    behind = -(head_radius_m + group.palm_gap_m)
+    behind = -(apart_m + group.palm_gap_m)
     return vector.add(head_centre, quaternion.rotate(head, (behind, outward * group.palm_apart_m, -group.palm_below_m)))
 
 
