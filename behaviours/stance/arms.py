@@ -22,7 +22,8 @@ NEUTRAL_SWIVEL = math.radians(20.0)
 HANG = 0.85
 SOFT_LEAN = 0.1  # radians of sideways lean over which the flank takes an arm up
 # how the nearest allowed swivel is looked for
-SWIVEL_STEPS, SWIVEL_STEP = 12, math.radians(10.0)
+SWIVEL_STEPS, SWIVEL_STEP = 20, math.radians(6.0)
+ROUNDING_RAD = 1e-6  # a straight elbow's angle is known no better
 
 
 @njit(cache=True)
@@ -90,21 +91,21 @@ def reach_within_limits(body, rotations, positions, orientations, side, target_m
     Where no swivel is allowed, the one that strains least is taken, the arm is held at its limits and the wrist goes no farther
     than that; the strain is what the limits are short of, radians, else 0.
     """
-    miss = reach(body, rotations, positions, orientations, side, target_m, swivel_rad)
+    reach(body, rotations, positions, orientations, side, target_m, swivel_rad)
     least, easiest = strain_rad(body, rotations, side), swivel_rad
-    if least == 0.0:
-        return miss, swivel_rad, 0.0
+    if least <= ROUNDING_RAD:
+        return _hold_at_limits(body, rotations, positions, orientations, side, target_m), swivel_rad, 0.0
     for k in range(1, SWIVEL_STEPS + 1):
         for way in (1.0, -1.0):
             allowed = swivel_rad + way * k * SWIVEL_STEP
             reach(body, rotations, positions, orientations, side, target_m, allowed)
             strain = strain_rad(body, rotations, side)
-            if strain == 0.0:
+            if strain <= ROUNDING_RAD:
                 forbidden = allowed - way * SWIVEL_STEP
-                miss, allowed = _edge_of_allowed(
+                allowed = _edge_of_allowed(
                     body, rotations, positions, orientations, side, target_m, forbidden, allowed
                 )
-                return miss, allowed, 0.0
+                return _hold_at_limits(body, rotations, positions, orientations, side, target_m), allowed, 0.0
             if strain < least:
                 least, easiest = strain, allowed
     reach(body, rotations, positions, orientations, side, target_m, easiest)
@@ -128,11 +129,12 @@ def _edge_of_allowed(body, rotations, positions, orientations, side, target_m, f
     for _ in range(20):
         middle = 0.5 * (forbidden + allowed)
         reach(body, rotations, positions, orientations, side, target_m, middle)
-        if strain_rad(body, rotations, side) == 0.0:
+        if strain_rad(body, rotations, side) <= ROUNDING_RAD:
             allowed = middle
         else:
             forbidden = middle
-    return reach(body, rotations, positions, orientations, side, target_m, allowed), allowed
+    reach(body, rotations, positions, orientations, side, target_m, allowed)
+    return allowed
 
 
 @njit(cache=True)

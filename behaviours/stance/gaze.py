@@ -6,6 +6,7 @@ import math
 
 from numba import njit
 
+from behaviours import timing
 from engine.body import limits
 from engine.body.skeleton import BACK, HEAD, NECK
 from engine.maths import quaternion, vector
@@ -14,7 +15,8 @@ from engine.maths import quaternion, vector
 NECK_SHARE = 0.7
 # the eyes, as shares of the height of the crown over the head's joint: ahead and up
 EYES = (0.6, 0.0, 0.45)
-STEEP = 0.35  # a direction whose level part is shorter than this loses its yaw bit by bit
+STEEP = 0.35  # a direction whose level part is shorter than this loses its yaw bit by bit ...
+BEHIND = math.radians(50.0)  # ... and so does one that is as near as this to straight behind
 
 
 @njit(cache=True)
@@ -48,10 +50,14 @@ def look(body, rotations, positions, orientations, target_m, weight):
 
 @njit(cache=True)
 def direction_angles(direction):
-    """(yaw, pitch) of a unit direction: to the left, and up. Yaw fades out where it loses its meaning, straight up and down."""
+    """(yaw, pitch) of a unit direction: to the left, and up.
+
+    Yaw fades out where it has no meaning, straight up and down, and straight behind, where no head turns and either way is as far.
+    """
     level = math.hypot(direction[0], direction[1])
-    t = min(level / STEEP, 1.0)
-    return (t * t * (3.0 - 2.0 * t) * math.atan2(direction[1], direction[0]), math.atan2(direction[2], level))
+    yaw = math.atan2(direction[1], direction[0])
+    clear = timing.ease(level / STEEP) * timing.ease((math.pi - abs(yaw)) / BEHIND)
+    return (clear * yaw, math.atan2(direction[2], level))
 
 
 @njit(cache=True)

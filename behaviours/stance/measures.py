@@ -61,7 +61,7 @@ def penalties(result: StanceResult) -> dict[str, float]:
     for side, name in enumerate(("reach_left", "reach_right")):
         if plan.reaching[side]:
             away = solver.reach_distance_m(plan, result.joints_m, side)
-            terms[name] = float(result.outcome.reach_weight * penalty.penalty_of(wishes.reach[side], away))
+            terms[name] = float(wishes.reach_weight * penalty.penalty_of(wishes.reach[side], away))
     return terms
 
 

@@ -180,8 +180,12 @@ def wishes_of(body: Body, wanted: Shape, places: tuple[Place, ...] = ()) -> solv
 
 
 def reach_penalty(arm_m: float) -> np.ndarray:
-    """The penalty on the distance from shoulder to target: none from a well bent to an almost straight arm, steep beyond."""
-    return penalty.row(0.75 * arm_m, Side(0.25 * arm_m, 0.0, 0.75 * arm_m, 1.0), Side(0.1 * arm_m, 0.0, 0.25 * arm_m, 1.0))
+    """The penalty on the distance from shoulder to target: none from a well bent to an easily stretched arm, then rising.
+
+    Gently, so that the line searches are not led along a steep-sided valley; what is lacking in the end is made up for by
+    `solver.give_way`.
+    """
+    return penalty.row(0.7 * arm_m, Side(0.25 * arm_m, 0.0, 0.7 * arm_m, 1.0), Side(0.12 * arm_m, 0.0, 0.6 * arm_m, 1.0))
 
 
 def unknowns_of(wanted: Shape) -> np.ndarray:

@@ -34,7 +34,7 @@ def shape_of(intensity: float, around: Around) -> Shape:
 
 
 def _collapsed(a: float) -> Shape:
-    knees = 0.85 * curves.late(a, 0.45)
+    knees = 0.85 * curves.late(a, 0.3)
     arms = 0.12 * curves.late(a, 0.2)
     return shape(
         sagittal_class=LARGE_C,
