@@ -16,6 +16,7 @@ from numba import njit
 
 from behaviours.clearing import allowed_swivel, clear_arms, depths_at, let_be, slerped_swivel
 from behaviours.overlap import PAIRS
+from behaviours.timing import ease
 from engine.body import limits
 from engine.body.kinematics import centre_of_mass, joints_into
 from engine.body.limb_ik import CARRIED, apply_leg, arm_swivel, leg_swivel
@@ -26,6 +27,7 @@ from engine.maths import quaternion, vector
 COM_PASSES = 5  # each closes about nine tenths of what is missing: the legs stay behind when the pelvis moves
 COM_GAIN = 1.12
 LEG_SOFT_M = 0.010  # a leg straightens over this length, instead of snapping straight
+LYING_LEG, STANDING_LEG = 0.2, 0.5  # hip over ankle in shares of the leg: it lies, or it may be standing
 LEG_SPARE_M = 0.0005  # and stays this much short of it, but where its own motion has it straighter
 
 
@@ -158,7 +160,7 @@ def drop_beyond_own(body, hip_m, ankle_m, side, own_length_m):
 
     It begins before the leg is straight and never lets it get quite there, so that the knee does not snap; a leg that is
     as long as its own motion has it asks for nothing, however straight that is. Where the foot stands farther off sideways than the
-    leg is long, sinking helps no further: as far as it does.
+    leg is long, sinking helps no further: as far as it does. A leg that lies bears nothing, and no sinking could help it.
     """
     full = vector.length(body.offset_m[KNEES[side]]) + vector.length(body.offset_m[ANKLES[side]])
     wanted = vector.distance(hip_m, ankle_m)
@@ -166,7 +168,8 @@ def drop_beyond_own(body, hip_m, ankle_m, side, own_length_m):
     if reach >= wanted:
         return 0.0
     across = math.hypot(hip_m[0] - ankle_m[0], hip_m[1] - ankle_m[1])
-    return max(0.0, hip_m[2] - ankle_m[2] - math.sqrt(max(reach * reach - across * across, 0.0)))
+    upright = ease(((hip_m[2] - ankle_m[2]) / full - LYING_LEG) / (STANDING_LEG - LYING_LEG))
+    return upright * max(0.0, hip_m[2] - ankle_m[2] - math.sqrt(max(reach * reach - across * across, 0.0)))
 
 
 @njit(cache=True)

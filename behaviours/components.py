@@ -78,7 +78,7 @@ class Blend(Component):
     to_rotations = column(JOINT_COUNT, 4)
     since = column(dtype=np.int64)
     ticks = column()  # how long it lasts; not whole, since slack stretches it
-    support = column(dtype=np.int64)  # the primary support foot: side 0 or 1
+    support = column(dtype=np.int64)  # the primary support foot: side 0 or 1, or NOBODY: both ends lie
 
 
 class Sustained(Component):
@@ -114,6 +114,7 @@ class Struck(Component):
     recover = column(dtype=np.int64)  # Recover
     joints_m = column(WINDOW_TICKS, JOINT_COUNT, 3)  # at the last ticks, the latest first
     count = column(dtype=np.int64)  # how many of them there are since the blow
+    played = column(dtype=np.int64)  # row of world.assets.clips: what was played before the blow
     rests = column(dtype=np.int64)  # ticks for which a body that is down has lain still
     said = column(dtype=bool)  # that it stays down
 

@@ -11,7 +11,7 @@ from __future__ import annotations
 import math
 
 from behaviours import feet as foot_plan
-from behaviours.components import Blend, Feet, Phase, Reaction, Struck, Sustained
+from behaviours.components import NOBODY, Blend, Feet, Phase, Reaction, Struck, Sustained
 from behaviours.playing import clip_pose
 from behaviours.reaction import STATE, enter, keep_continuous, moment_before
 from behaviours.recovery import return_clip_s
@@ -63,7 +63,7 @@ def begin_getting_up(world, row: int, tick: int, found: Found) -> None:
     begins = clip_pose(world, row, return_clip_s(world, row))
     b.from_root_m[row], b.from_rotations[row] = shown(world, row)[0]
     b.to_root_m[row], b.to_rotations[row] = begins
-    b.since[row], b.ticks[row] = tick - 1, settings.get_up_blend_s / TICK_S
+    b.since[row], b.ticks[row], b.support[row] = tick - 1, settings.get_up_blend_s / TICK_S, NOBODY
     s.root_m[row], s.rotations[row] = begins
     for side in range(2):
         foot_plan.let_go(world[Feet], row, side)

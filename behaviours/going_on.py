@@ -25,8 +25,10 @@ from engine.core.schedule import Stage, system
 def go_on(world, tick):
     """Whoever has come to the end of a motion that the search found takes up its own clip again."""
     for row in world.rows(Struck, Playback):
-        if world[Reaction].phase[row] == Phase.PLAY and is_over(world, row, tick):
-            take_up_own_clip(world, row, tick)
+        if world[Reaction].phase[row] == Phase.PLAY:
+            world[Struck].played[row] = world[Playback].clip[row]
+            if is_over(world, row, tick):
+                take_up_own_clip(world, row, tick)
 
 
 def is_over(world, row: int, tick: int) -> bool:

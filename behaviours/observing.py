@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from behaviours.components import Blend, Feet, Phase, Playback, Posture, Ragdoll, Reaction
+from behaviours.components import NOBODY, Blend, Feet, Phase, Playback, Posture, Ragdoll, Reaction
 from behaviours.playing import body_of
 from behaviours.seams import MOMENT
 from behaviours.settling import settled_pose
@@ -93,7 +93,7 @@ def _note(world, row: int, tick: int, track: Track) -> None:
     track.clip.append(int(world[Playback].clip[row]))
     physics = world[Ragdoll].active[row]
     track.head_mps.append(world[Ragdoll].head_mps[row].copy() if physics else np.empty((0, 3)))
-    if r.phase[row] in BLENDED:
+    if r.phase[row] in BLENDED and world[Blend].support[row] != NOBODY:
         track.lines.append(_line(world, row, tick, track.body))
     track.before = _joints(track.body, settled_pose(world, row, tick - MOMENT))
 

@@ -149,7 +149,7 @@ def strike(world, row: int, ball: int, hit: impact.Hit, tick: int) -> None:
     if impulse is None:
         return
     size_Ns = vector.length(impulse.impulse_Ns)
-    hard = size_Ns >= response.least_Ns
+    hard = size_Ns >= response.least_Ns and (simulated or impulse.approach_mps >= response.least_mps)
     at_s = (tick - 1 + hit.share) * TICK_S
     world.emit(
         "contact" if hard else "touch",

@@ -146,13 +146,13 @@ def choose_return(world, row: int) -> None:
     recover, library = Recover(int(world[Struck].recover[row])), world.assets.libraries[row]
     if recover == Recover.SAME or library is None:
         return
-    settings, index, p = world.assets.settings.search, library.index, world[Playback]
+    settings, index = world.assets.settings.search, library.index
     window = window_since_blow(world, row)
     size_m = reaction_size_m(world, row, window, index.share, settings.velocity_s)
     if recover == Recover.AUTO and size_m <= settings.auto_over_m:
         world.emit("searched", world.entity(row), chosen="same", reaction_m=size_m)
         return
-    own = None if settings.own_clip else library.clip_rows.index(int(p.clip[row]))
+    own = None if settings.own_clip else library.clip_rows.index(int(world[Struck].played[row]))
     found = best_window(index, window, "standing", settings.velocity_s, settings.candidates, but_clip=own)
     if found is None:
         world.emit("searched", world.entity(row), chosen="same", reaction_m=size_m)

@@ -138,7 +138,9 @@ class Solver(NamedTuple):
     offset: Annotated[float, Constant("m or 1", "3.3", "finite difference to either side")] = 0.01
     tolerance: Annotated[float, Constant("1", "A4", "relative decrease that ends the search")] = 1e-4
     iterations: Annotated[int, Constant("count", "A4", "at most")] = 60
-    restarts: Annotated[int, Constant("count", "A4", "fresh curvature at the end, at most, while that still gains")] = 2
+    restarts: Annotated[int, Constant("count", "A4", "BFGS begins again with fresh curvature, while that still gains")] = 0
+    polish: Annotated[bool, Constant("yes/no", "A4", "least squares goes on from where BFGS ends (squares form only)")] = True
+    polish_tolerance: Annotated[float, Constant("1", "A4", "relative decrease that ends least squares")] = 1e-5
 
 
 class Timing(NamedTuple):
@@ -188,6 +190,7 @@ class Response(NamedTuple):
     friction: Annotated[float, Constant("1", "A8", "ball against body")] = 0.5
     contact_s: Annotated[float, Constant("s", "A8", "how long the ball presses, half a sine; 0 is an instant")] = 0.010
     least_Ns: Annotated[float, Constant("N s", "A8", "a weaker touch turns the ball away and moves nobody")] = 0.4
+    least_mps: Annotated[float, Constant("m/s", "A8", "so does a slower one, or a ball that lies on somebody holds them down")] = 1.0
     down_share: Annotated[float, Constant("1", "A8", "of that strength that is left once knocked down")] = 0.15
     stiffness: Annotated[float, Constant("1", "A8", "strength of the tracking servos, 1 is usual")] = 1.0
     damping: Annotated[float, Constant("1", "A8", "their damping, 1 is critical")] = 1.0

@@ -136,7 +136,7 @@ def _spawn_character(world: World, row: int, spec: CharacterSpec) -> None:
         Blend(ticks=1.0),
         Sustained(root_m=pose.root_m, rotations=pose.rotations),
         Ragdoll(),
-        Struck(recover=Recover[spec.recover.upper()]),
+        Struck(recover=Recover[spec.recover.upper()], played=row),
         Blow(ball=NOBODY),
         Feet(ticks=(1.0, 1.0)),
         Residual(since=-1000),

@@ -8,8 +8,9 @@ from __future__ import annotations
 import numpy as np
 
 from behaviours.blending import FootGoals, blend_end, blend_into
-from behaviours.components import Blend, Character, Feet, Phase, Ragdoll, Reaction
+from behaviours.components import NOBODY, Blend, Character, Feet, Phase, Ragdoll, Reaction
 from behaviours.feet import goals_of
+from behaviours.lying import blend_lying
 from behaviours.playing import body_of, capsules_of, clip_pose, clip_time_s
 from behaviours.timing import TICK_S, ease, whole_ticks
 from engine.body.kinematics import joints_of
@@ -70,6 +71,9 @@ def simulation_into_sustained(world, row: int, tick: float) -> Pose:
 def _between(world, row, tick, start, end, weight) -> tuple[Pose, tuple[float, float]]:
     root_m, rotations = np.empty(3), np.empty((JOINT_COUNT, 4))
     goals, support = goals_of(world[Feet], row, tick), int(world[Blend].support[row])
+    if support == NOBODY:
+        blend_lying(body_of(world, row), start, end, weight, root_m, rotations)
+        return Pose(root_m, rotations), (0.0, 0.0)
     led_m = blend_into(body_of(world, row), capsules_of(world, row), start, end, weight, support, goals, root_m, rotations)
     return Pose(root_m, rotations), led_m
 

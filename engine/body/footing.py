@@ -104,3 +104,9 @@ def stepped(start_m, finish_m, share, lift_m):
     x, y, z = vector.mix(start_m, finish_m, ease)
     up = math.sin(math.pi * share)
     return (x, y, z + lift_m * up * up)
+
+
+@njit(cache=True)
+def lowest_m(body, positions, orientations):
+    """The height of whatever is lowest, soles or joints: what somebody stands, kneels or lies on."""
+    return min(lowest_sole_m(body, positions, orientations), positions[:, 2].min())

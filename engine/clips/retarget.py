@@ -14,7 +14,7 @@ import numpy as np
 from numba import njit
 
 from engine.body.anthropometry import stature_m
-from engine.body.footing import drop_to_reach, leg_length_m
+from engine.body.footing import drop_to_reach, leg_length_m, lowest_m
 from engine.body.kinematics import joints_into
 from engine.body.limb_ik import apply_leg, leg_swivel
 from engine.body.skeleton import ANKLES, HIPS, JOINT_COUNT, KNEES, TOES, Body, Pose
@@ -83,12 +83,6 @@ def retarget_frames(old, new, old_root_m, root_m, rotations):
         joints_into(new.offset_m, root_m[f], rotations[f], at, turned)
         ankle_goals(old, new, scale, old_at, old_turned, at, turned, ankles_m)
         put_feet(new, ankles_m, root_m[f], rotations[f], at, turned)
-
-
-@njit(cache=True)
-def lowest_m(body, positions, orientations):
-    """The height of whatever is lowest, soles or joints: what somebody stands, kneels or lies on."""
-    return min(sole_points(body, positions, orientations)[:, :, 2].min(), positions[:, 2].min())
 
 
 @njit(cache=True)
