@@ -18,7 +18,7 @@ PULLS = 30  # alternating projections: two legs that both fall short agree to a 
 
 
 @njit(cache=True)
-def pull_pelvis(body, positions, feet, leg_share):
+def pull_pelvis(leg_m, positions, feet, leg_share):
     """(3,) the least shift of the pelvis, metres, that brings every held foot within its share of the leg's length.
 
     positions (J, 3): hips of the rules pose. The look-ahead carries the pelvis out of the planted leg's reach in over a
@@ -29,7 +29,7 @@ def pull_pelvis(body, positions, feet, leg_share):
         for side in range(2):
             hip, ankle = vector.at(positions, HIPS[side]), vector.at(feet.ankle_m, side)
             leg = (hip[0] + shift[0] - ankle[0], hip[1] + shift[1] - ankle[1], hip[2] + shift[2] - ankle[2])
-            long, reach = vector.length(leg), leg_length_m(body, side) * leg_share
+            long, reach = vector.length(leg), leg_m[side] * leg_share
             if feet.held[side] and long > reach:
                 for k in range(3):
                     shift[k] += leg[k] * (reach / long - 1.0)

@@ -9,6 +9,7 @@ from numba import njit
 
 from behaviours import plant
 from behaviours.apply_rules import hang_leg, place_trunk
+from behaviours.look_ahead import farthest_ahead, pelvis_on_its_way
 from behaviours.perceived import PerceivedThreat, target_centre
 from behaviours.rules.controls import LEAN, TURN, controls_from_threat
 from behaviours.rules.turn import turn_side, wanted_turn
@@ -61,19 +62,23 @@ def prepare(
     task = Task(*bones_of(body), start, feet, threat, _no_choices(), rules_of(settings))
     task = task._replace(choices=choose_turn(task, settings, previous_turn_side))
 
-    # the pelvis turns and leans, then is drawn within reach of the planted feet, then the foot in the air is set down
+    # the pelvis goes as far ahead as the planted legs allow, then the foot in the air is set down
     controls = controls_from_threat(threat.speed_norm, threat.size_norm)
     posed = new_posed()
-    place_hips(task, controls, posed)
     leg_share = settings.balance.leg_share
-    shift = plant.pull_pelvis(body, posed.positions, feet, leg_share)
-    task = task._replace(start=start._replace(root_m=start.root_m + shift))
-    if feet.held.any():
-        hips_m = posed.positions[list(HIPS)] + shift
-        feet = plant.set_down(body, feet, hips_m, ahead_positions, ahead_orientations, leg_share)
-    task = task._replace(feet=feet._replace(step_m=plant.steps_m(feet, now_positions)))
+    now_m, ahead_m = _triple(ahead_positions[PELVIS] if landing else pose_now.root_m), _triple(pose_ahead.root_m)
+    share = farthest_ahead(task, controls, now_m, ahead_m, leg_share, settings.balance.brace_m, posed)
+    root_m = pelvis_on_its_way(task, controls, now_m, ahead_m, share, leg_share, posed)
+    task = task._replace(start=start._replace(root_m=root_m))
     place_hips(task, controls, posed)
+    if feet.held.any():
+        feet = plant.set_down(body, feet, posed.positions[list(HIPS)], ahead_positions, ahead_orientations, leg_share)
+    task = task._replace(feet=feet._replace(step_m=plant.steps_m(feet, now_positions)))
     return task._replace(choices=choose_guard(task, posed))
+
+
+def _triple(v) -> tuple[float, float, float]:
+    return (float(v[0]), float(v[1]), float(v[2]))
 
 
 def start_pose(body: Body, pose_now: Pose, pose_ahead: Pose, legs_ahead) -> Start:

@@ -12,6 +12,7 @@ from behaviours.least_squares import bounded_step, normal_equations
 from behaviours.rules.controls import CONTROL_COUNT
 from behaviours.total_error import RESIDUALS, TERMS, VARIABLES, BEGIN, residuals_into, total_error
 
+REFINE = 0.1  # each restart looks closer: the thesis's offset is as wide as the leg's soft end
 LEAST_SQUARES_OFFSET = 1e-4  # its derivatives are of residuals, not of their squares: a fine difference is safe
 LEAST_DAMPING, MOST_DAMPING = 1e-9, 1e6
 
@@ -40,7 +41,8 @@ def solve_bfgs(task, reference, form, start, posed, offset, tolerance, iteration
         value = total_error(residuals, reference, form)
         if search.counts[minimise.EVALUATIONS] == 0:
             initial = value
-        minimise.tell(search, value, offset, tolerance, iterations, restarts)
+        finer = offset * REFINE ** search.counts[minimise.RESTARTS]
+        minimise.tell(search, value, finer, tolerance, iterations, restarts)
     counts = search.counts
     return Solution(
         search.point,

@@ -51,6 +51,7 @@ class SolverReport(NamedTuple):
     evaluations: int
     restarts: int
     stop: str  # one of minimise.STOPS, or "not needed"
+    polish_evaluations: int  # by least squares, from where BFGS ended
 
 
 class Protection(NamedTuple):
@@ -109,9 +110,9 @@ def solve_protection(body: Body, task: Task, settings: Settings) -> Protection:
         return Protection(
             rules, rules, controls, controls, com_rules, com_rules, np.array(reference.com_wanted_m), support_rules,
             Case.AIRBORNE, errors_initial, errors_initial, task.choices, task.feet,
-            SolverReport(settings.solver.method, 0, 0, 0, "not needed"), task, reference,
+            SolverReport(settings.solver.method, 0, 0, 0, "not needed", 0), task, reference,
         )  # fmt: skip
-    solution = solve(task, reference, form, start, posed, settings)
+    solution, polishing = solve(task, reference, form, start, posed, settings)
     shift, controls_end = solution.variables[:3].copy(), np.clip(solution.variables[3:], 0.0, 1.0)
     shift += pose_exactly(task, shift, controls_end, posed, settings.balance.foot_tolerance_m)
     sustained, com = _pose_of(posed), np.array(centre_of_mass(task.bones, posed.positions, posed.orientations))
@@ -126,6 +127,7 @@ def solve_protection(body: Body, task: Task, settings: Settings) -> Protection:
         int(solution.evaluations),
         int(solution.restarts),
         minimise.STOPS[solution.stop],
+        polishing,
     )
     return Protection(
         rules, sustained, controls, controls_end, com_rules, com, np.array(reference.com_wanted_m), support,
@@ -133,12 +135,24 @@ def solve_protection(body: Body, task: Task, settings: Settings) -> Protection:
     )  # fmt: skip
 
 
-def solve(task: Task, reference: Reference, form: int, start: np.ndarray, posed: Posed, settings: Settings) -> Solution:
-    """Runs the solver that the settings name. Least squares knows only the `squares` form."""
+def solve(
+    task: Task, reference: Reference, form: int, start: np.ndarray, posed: Posed, settings: Settings
+) -> tuple[Solution, int]:
+    """Runs the solver that the settings name; the solution, and how many evaluations polishing it took.
+
+    A joint limit that is met on the way is a ridge on which BFGS ends in its line search. Least squares, which bends with
+    it, then goes on from there; it knows only the `squares` form.
+    """
     s = settings.solver
     if s.method == "least_squares":
-        return solve_least_squares(task, reference, start, posed, s.tolerance, s.iterations)
-    return solve_bfgs(task, reference, form, start, posed, s.offset, s.tolerance, s.iterations, s.restarts)
+        return solve_least_squares(task, reference, start, posed, s.polish_tolerance, s.iterations), 0
+    found = solve_bfgs(task, reference, form, start, posed, s.offset, s.tolerance, s.iterations, s.restarts)
+    if not s.polish or FORMS[form] != "squares":
+        return found, 0
+    polished = solve_least_squares(task, reference, found.variables, posed, s.polish_tolerance, s.iterations)
+    better = polished.value < found.value
+    variables, value = (polished.variables, polished.value) if better else (found.variables, found.value)
+    return found._replace(variables=variables, value=value), int(polished.evaluations)
 
 
 def refer_to(task: Task, posed: Posed, com_m, controls, settings: Settings) -> Reference:
