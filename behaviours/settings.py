@@ -210,7 +210,7 @@ class Recovery(NamedTuple):
 class Search(NamedTuple):
     """Which motion a struck character goes on with (4.1.3; Zordan et al. 2005), where a new one may be searched for."""
 
-    auto_over_m: Annotated[float, Constant("m", "A9", "auto: a new motion if the blow moved the body more than this")] = 0.10
+    auto_over_m: Annotated[float, Constant("m", "A9", "auto: a new motion if the blow moved the body more than this")] = 0.06
     own_clip: Annotated[bool, Constant("yes/no", "A9", "whether the clip that was played counts as new")] = False
     velocity_s: Annotated[float, Constant("s", "A9", "a velocity counts as the distance it goes in this time")] = 0.1
     candidates: Annotated[int, Constant("count", "A9", "windows of the prefilter that are compared exactly")] = 96
