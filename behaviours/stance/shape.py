@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import difflib
 from collections.abc import Iterable
-from typing import NamedTuple
+from typing import NamedTuple, Protocol
 
 import numpy as np
 
@@ -20,6 +20,12 @@ from engine.core.random import Stream
 # the foot that carries the balance: the one with more weight on it, or one that is named (the other may then be lifted)
 DOMINANT = ("heavier", "left", "right")
 HEAVIER, LEFT_FOOT, RIGHT_FOOT = DOMINANT
+
+
+class Chance(Protocol):
+    """A stream of chance, such as a world's (`engine.core.random`)."""
+
+    def normal(self) -> float: ...
 
 
 class States(NamedTuple):

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import time
 from typing import NamedTuple
 
 import numpy as np
@@ -50,7 +49,6 @@ class StanceResult(NamedTuple):
     wrist_error_m: np.ndarray  # (2,) 0 without a target
     swivel_rad: np.ndarray  # (2,) taken
     kept: float  # share of the lower body's wishes that the legs' limits left, 1 when all
-    milliseconds: float
 
 
 def solve_stance(
@@ -95,7 +93,6 @@ def solve_shape(
     places: tuple[Place, ...] = (),
 ) -> StanceResult:
     """The pose of a shape: every low-level parameter is in `wanted`. Feet and points as in `solve_stance`."""
-    started = time.perf_counter()
     if feet is None:
         feet = footprints.stand(body, width_m=max(footprints.neutral_width_m(body) + wanted.numbers.width_m, 0.0))
     feet = footprints.raised(body, feet, wanted.numbers.rise_rad)
@@ -118,7 +115,6 @@ def solve_shape(
         wrist_error_m=wrists[solver.MISS],
         swivel_rad=wrists[solver.SWIVEL],
         kept=kept,
-        milliseconds=1000.0 * (time.perf_counter() - started),
     )
 
 
