@@ -1,5 +1,5 @@
 """Humanoid motions as numpy archives (.npz): the position and rotation of each of fifteen bodies in the world, Z up,
-metres.
+metres. Archives that we wrote ourselves hold our own joints and are told by their schema: `engine.clips.own_npz`.
 
 The bodies are those of the humanoid of DeepMimic (Peng et al. 2018): every body frame is parallel to the world when the
 figure stands with its arms hanging, facing +X. The files store no tree and no joint offsets; both follow from the
@@ -12,6 +12,7 @@ from pathlib import Path
 
 import numpy as np
 
+from engine.clips.own_npz import is_own, read_own_npz
 from engine.clips.tracks import Tracks
 from engine.core.errors import BadInput
 from engine.maths import rotations
@@ -30,6 +31,8 @@ NEEDED = ("fps", "body_names", "body_positions", "body_rotations")
 def read_npz(path: str | Path) -> Tracks:
     """The bodies of one archive as a tree of joints. BadInput names the array, what was found and what was expected."""
     path = Path(path)
+    if is_own(path):
+        return read_own_npz(path)
     arrays = _load(path)
     names = _body_names(arrays, path)
     positions, turns = _bodies(arrays, names, path)
