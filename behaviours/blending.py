@@ -14,13 +14,13 @@ from typing import NamedTuple
 import numpy as np
 from numba import njit
 
-from behaviours.clearing import allowed_swivel, clear_arms, depths_at, let_be, slerped_swivel
-from behaviours.overlap import PAIRS
+from behaviours.clearing import clear_arms, depths_at, let_be, overrun_between, place_arms
+from behaviours.overlap import ARM_CAPSULES, PAIRS
 from behaviours.timing import ease
 from engine.body import limits
 from engine.body.kinematics import centre_of_mass, joints_into
-from engine.body.limb_ik import CARRIED, apply_leg, arm_swivel, leg_swivel
-from engine.body.skeleton import ANKLES, ELBOWS, HEAD, HIPS, JOINT_COUNT, KNEES, NECK, PELVIS, SHOULDERS, WRISTS
+from engine.body.limb_ik import CARRIED, KEEP, apply_arm, apply_leg, arm_swivel, leg_swivel
+from engine.body.skeleton import ANKLES, ELBOWS, HEAD, HIPS, JOINT_COUNT, KNEES, NECK, PELVIS, SHOULDERS, TOES, WRISTS
 from engine.body.two_bones import soft_reach
 from engine.maths import quaternion, vector
 
@@ -29,6 +29,12 @@ COM_GAIN = 1.12
 LEG_SOFT_M = 0.010  # a leg straightens over this length, instead of snapping straight
 LYING_LEG, STANDING_LEG = 0.2, 0.5  # hip over ankle in shares of the leg: it lies, or it may be standing
 LEG_SPARE_M = 0.0005  # and stays this much short of it, but where its own motion has it straighter
+ARC_SHARES = (0.0, 1e-3, 0.25, 0.5, 0.75, 1.0)  # the second: straight, but with the slerped arm's elbow
+ARC_SAMPLES = 16
+ARC_STRIDE_M = 0.15  # an elbow that goes farther than this from one sample to the next turns over
+ARC_LIMIT_RAD = 0.005  # a line on which the shoulder goes this far beyond its limits, or
+ARC_DEPTH_M = 0.05  # the arm lies this deep in the body, is no line to follow
+ARC_LEVER_M = 0.3  # this much too deep is as bad as a radian beyond the limits
 
 
 class FootGoals(NamedTuple):
@@ -36,6 +42,7 @@ class FootGoals(NamedTuple):
 
     ankle_m: np.ndarray  # (2, 3) world
     turned: np.ndarray  # (2, 4) ankle orientation, world
+    toe: np.ndarray  # (2, 4) toe rotation, in the ankle's frame
     bound: np.ndarray  # (2,) bool: False lets that foot go with the pose
 
 
@@ -125,6 +132,13 @@ def legs_to(body, root_m, rotations, ankle_m):
 
 
 @njit(cache=True)
+def bend_toe(toe, rotations, side):
+    """Gives a toe its planned rotation (2, 4), in place; the leg's IK carries it into the world."""
+    for k in range(4):
+        rotations[TOES[side], k] = toe[side, k]
+
+
+@njit(cache=True)
 def hold_feet(body, goals, own_lengths, knee_swivels, root_m, rotations, positions, orientations):
     """Leg IK onto the goals of both feet; lowers the pelvis first where a goal is out of a leg's reach. In place.
 
@@ -141,6 +155,7 @@ def hold_feet(body, goals, own_lengths, knee_swivels, root_m, rotations, positio
             positions[j, 2] -= drop
     for side in range(2):
         if goals.bound[side]:
+            bend_toe(goals.toe, rotations, side)
             apply_leg(
                 body,
                 rotations,
@@ -173,15 +188,23 @@ def drop_beyond_own(body, hip_m, ankle_m, side, own_length_m):
 
 
 @njit(cache=True)
-def move_com(body, com_wanted_m, goals, own_lengths, knee_swivels, root_m, rotations, positions, orientations):
-    """Second pass: shifts the pelvis until the COM is where it is wanted, the feet held (thesis 4.3). In place."""
+def leg_lengths_between(start, end, weight):
+    """(left, right): from hip to ankle on the way, metres."""
+    first, last = leg_lengths(start.positions), leg_lengths(end.positions)
+    return (first[0] + weight * (last[0] - first[0]), first[1] + weight * (last[1] - first[1]))
+
+
+@njit(cache=True)
+def move_com(body, start, end, weight, goals, root_m, rotations, positions, orientations):
+    """Second pass: shifts the pelvis until the COM is on its straight line, the feet held (thesis 4.3). In place."""
+    wanted_m = vector.mix(start.com_m, end.com_m, weight)
+    swivels, lengths = knee_swivels_between(start, end, weight), leg_lengths_between(start, end, weight)
     for _ in range(COM_PASSES):
         com = centre_of_mass(body, positions, orientations)
         for k in range(3):
-            shift = COM_GAIN * (com_wanted_m[k] - com[k])
-            root_m[k] += shift
+            root_m[k] += COM_GAIN * (wanted_m[k] - com[k])
         joints_into(body.offset_m, root_m, rotations, positions, orientations)
-        hold_feet(body, goals, own_lengths, knee_swivels, root_m, rotations, positions, orientations)
+        hold_feet(body, goals, lengths, swivels, root_m, rotations, positions, orientations)
 
 
 @njit(cache=True)
@@ -202,28 +225,25 @@ def mix_angle(first_rad, last_rad, weight):
 
 
 @njit(cache=True)
-def hands_between(start, end, weight):
-    """Both wrists on the straight lines between their ends, the elbows' swivel angles interpolated (thesis 4.3): (2, 3), (2,)."""
+def arms_between(body, start, end, weight, arcs, rotations, positions, orientations):
+    """Where both wrists are to be, (2, 3), and their arms' swivels, (2,): on the way from end to end (thesis 4.3).
+
+    The hand goes straight, the swivel angle is interpolated. With a share `arcs` (2,) above 0 the hand goes by that much on the way
+    that slerping the arm takes it, and the elbow is left where that has it. The arms come here slerped, and leave there.
+    """
     targets, swivels = np.empty((2, 3)), np.empty(2)
     for side in range(2):
-        hand_m = vector.mix(start.positions[WRISTS[side]], end.positions[WRISTS[side]], weight)
-        targets[side, 0], targets[side, 1], targets[side, 2] = hand_m
+        wrist, arc = WRISTS[side], arcs[side]
+        line = vector.mix(start.positions[wrist], end.positions[wrist], weight)
         first = arm_swivel(start.positions, start.orientations, side, CARRIED)
         last = arm_swivel(end.positions, end.orientations, side, CARRIED)
-        swivels[side] = mix_angle(first, last, weight)
+        swivels[side] = mix_angle(first, last, weight) if arc == 0.0 else KEEP
+        line = vector.mix(line, positions[wrist], arc)
+        targets[side, 0], targets[side, 1], targets[side, 2] = line
+        apply_arm(body, rotations, positions, orientations, side, line, swivels[side], CARRIED)
+        if arc > 0.0:
+            swivels[side] = arm_swivel(positions, orientations, side, CARRIED)
     return targets, swivels
-
-
-@njit(cache=True)
-def carry_hands(body, start, end, weight, targets_m, swivels, rotations, positions, orientations):
-    """Each wrist onto its target, the elbow as its swivel says or as near to it as the shoulder allows. In place."""
-    for side in range(2):
-        joint = SHOULDERS[side]
-        slerped = slerped_swivel(body, positions, orientations, rotations, side, targets_m[side])
-        swivels[side] = allowed_swivel(
-            body, side, start.rotations[joint], end.rotations[joint], targets_m[side], swivels[side], slerped,
-            rotations, positions, orientations,
-        )  # fmt: skip
 
 
 @njit(cache=True)
@@ -235,32 +255,88 @@ def knee_swivels_between(start, end, weight):
 
 
 @njit(cache=True)
-def blend_into(body, capsules, start, end, weight, support, goals, root_m, rotations):
-    """The pose a weight (already eased, 0 to 1) of the way from one end to the other. Writes root_m (3,) and rotations (J, 4).
-
-    Returns how far either hand was led off its straight line to go round the body: (left, right), metres.
-    """
-    positions = np.empty((JOINT_COUNT, 3))
-    orientations = np.empty((JOINT_COUNT, 4))
+def blend_trunk_and_legs(body, start, end, weight, support, goals, arcs, root_m, rotations, positions, orientations):
+    """Both passes but for the last word on the arms, which are left as slerped. In place."""
     slerp_from_support(body, start, end, weight, support, root_m, rotations, positions, orientations)
-    swivels = knee_swivels_between(start, end, weight)
-    first, last = leg_lengths(start.positions), leg_lengths(end.positions)
-    lengths = (first[0] + weight * (last[0] - first[0]), first[1] + weight * (last[1] - first[1]))
+    swivels, lengths = knee_swivels_between(start, end, weight), leg_lengths_between(start, end, weight)
     hold_feet(body, goals, lengths, swivels, root_m, rotations, positions, orientations)
-    targets, elbows = hands_between(start, end, weight)
     slerped = rotations.copy()
-    carry_hands(body, start, end, weight, targets, elbows, rotations, positions, orientations)
-    joints_into(body.offset_m, root_m, rotations, positions, orientations)
-    com_wanted = vector.mix(start.com_m, end.com_m, weight)
-    move_com(body, com_wanted, goals, lengths, swivels, root_m, rotations, positions, orientations)
+    arms_between(body, start, end, weight, arcs, rotations, positions, orientations)
+    move_com(body, start, end, weight, goals, root_m, rotations, positions, orientations)
     slerp_head(start, end, weight, rotations, positions, orientations)
-    # the shoulders have moved: the arms once more, from what slerping alone had made of them
     for side in range(2):
         for joint in (SHOULDERS[side], ELBOWS[side], WRISTS[side]):
             rotations[joint] = slerped[joint]
     joints_into(body.offset_m, root_m, rotations, positions, orientations)
-    targets, elbows = hands_between(start, end, weight)
-    carry_hands(body, start, end, weight, targets, elbows, rotations, positions, orientations)
+
+
+@njit(cache=True)
+def blend_into(body, capsules, start, end, weight, support, goals, arcs, root_m, rotations):
+    """The pose a weight (already eased, 0 to 1) of the way from one end to the other. Writes root_m (3,) and rotations (J, 4).
+
+    arcs (2,): see `arms_between`. Returns how far either hand was led off its way to go round the body, metres.
+    """
+    positions = np.empty((JOINT_COUNT, 3))
+    orientations = np.empty((JOINT_COUNT, 4))
+    blend_trunk_and_legs(body, start, end, weight, support, goals, arcs, root_m, rotations, positions, orientations)
+    # the shoulders have moved: the arms once more, and where they now are in the way
+    targets, elbows = arms_between(body, start, end, weight, arcs, rotations, positions, orientations)
     allowed = np.empty(len(start.depths_m))
     let_be(start.depths_m, end.depths_m, weight, allowed)
-    return clear_arms(body, capsules, allowed, targets, elbows, rotations, positions, orientations)
+    led = clear_arms(body, capsules, allowed, targets, elbows, rotations, positions, orientations)
+    # arms that go round take the COM along: once more
+    move_com(body, start, end, weight, goals, root_m, rotations, positions, orientations)
+    place_arms(body, targets, elbows, rotations, positions, orientations)
+    return led
+
+
+@njit(cache=True)
+def arm_trouble(body, capsules, start, end, weight, side, rotations, positions, orientations):
+    """What is wrong with an arm on the way: radians beyond its shoulder's limits, and metres too deep in the body."""
+    joint = SHOULDERS[side]
+    beyond = overrun_between(body, joint, start.rotations[joint], end.rotations[joint], rotations[joint])
+    depths, allowed, deepest = np.empty(len(PAIRS)), np.empty(len(PAIRS)), 0.0
+    depths_at(capsules, positions, orientations, depths)
+    let_be(start.depths_m, end.depths_m, weight, allowed)
+    for n in range(len(PAIRS)):
+        # the other arm's way is not yet known: hands are kept apart as they go
+        if ARM_CAPSULES[PAIRS[n, 0], 0] == side and ARM_CAPSULES[PAIRS[n, 1], 0] < 0:
+            deepest = max(deepest, depths[n] - allowed[n])
+    return beyond, deepest
+
+
+@njit(cache=True)
+def choose_arcs(body, capsules, start, end, support, goals):
+    """How much of the slerped arm's way each hand takes, (2,): none, a straight line, unless that is no way for an arm.
+
+    A line that leads deep through the body, or where the shoulder cannot follow, is bent towards the way that slerping the arm
+    takes, by the least of a few shares that makes it good enough; else by the one that leaves least wrong.
+    """
+    arcs, least = np.zeros(2), np.full(2, np.inf)
+    found = np.zeros(2, np.bool_)
+    root_m, rotations = np.empty(3), np.empty((JOINT_COUNT, 4))
+    positions, orientations = np.empty((JOINT_COUNT, 3)), np.empty((JOINT_COUNT, 4))
+    for share in ARC_SHARES:
+        both, worst, elbows_m = np.full(2, share), np.zeros(2), np.empty((2, 3))
+        for k in range(ARC_SAMPLES + 1):
+            weight = k / ARC_SAMPLES
+            blend_trunk_and_legs(
+                body, start, end, weight, support, goals, both, root_m, rotations, positions, orientations
+            )
+            arms_between(body, start, end, weight, both, rotations, positions, orientations)
+            for side in range(2):
+                beyond, deep = arm_trouble(body, capsules, start, end, weight, side, rotations, positions, orientations)
+                wrong = max(0.0, beyond - ARC_LIMIT_RAD) + max(0.0, deep - ARC_DEPTH_M) / ARC_LEVER_M
+                elbow = vector.subtract(positions[ELBOWS[side]], positions[PELVIS])
+                if k > 0:
+                    wrong += max(0.0, vector.distance(elbow, elbows_m[side]) - ARC_STRIDE_M) / ARC_LEVER_M
+                for axis in range(3):
+                    elbows_m[side, axis] = elbow[axis]
+                worst[side] = max(worst[side], wrong)
+        for side in range(2):
+            if not found[side] and worst[side] < least[side]:
+                least[side], arcs[side] = worst[side], share
+                found[side] = worst[side] == 0.0
+        if found[0] and found[1]:
+            break
+    return arcs

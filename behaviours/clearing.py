@@ -1,5 +1,4 @@
-"""Arms kept out of the way of the body while they blend: elbows inside their shoulders' limits, hands and forearms out of head
-and trunk and each other.
+"""Arms kept out of the way of the body while they blend: hands and forearms out of head and trunk and each other.
 
 A straight line between two good places for a hand often leads through the head or the chest. The arm is then pushed out by as much
 as it would be too deep, and no more: what the two ends of the blend have themselves is let be, so a blend still begins and
@@ -15,7 +14,7 @@ from numba import njit
 
 from behaviours.overlap import ARM_CAPSULES, PAIRS
 from engine.body.capsules import capsules_at
-from engine.body.limb_ik import CARRIED, KEEP, apply_arm, arm_swivel
+from engine.body.limb_ik import CARRIED, apply_arm
 from engine.body.limits import components
 from engine.body.skeleton import ELBOWS, SHOULDERS, WRISTS
 from engine.maths import vector
@@ -26,7 +25,6 @@ YIELD_M = 0.008  # and let each other at most this much nearer than that
 LEVER_M = 0.15  # an elbow that far off the line shoulder - wrist moves as readily as the wrist
 PUSHES = 12
 EAGERNESS = 0.8  # share of what is missing that one push makes good
-SEARCH = 12  # halvings in the search for a swivel that a shoulder allows
 UNDECIDED = 1e-9
 
 
@@ -119,7 +117,7 @@ def push_arms(capsules, levels_m, positions, orientations, targets_m, swivels):
 def clear_arms(body, capsules, allowed_m, targets_m, swivels, rotations, positions, orientations):
     """Pushes both arms out of the body, in place, from where their targets (2, 3) and swivels (2,) have them.
 
-    Returns how far each wrist was led off its target, metres: (left, right).
+    Moves the targets to where the wrists are led. Returns how far that is, metres: (left, right).
     """
     depths = np.empty(len(PAIRS))
     depths_at(capsules, positions, orientations, depths)
@@ -130,7 +128,9 @@ def clear_arms(body, capsules, allowed_m, targets_m, swivels, rotations, positio
         if not push_arms(capsules, levels, positions, orientations, led, swivels):
             break
         place_arms(body, led, swivels, rotations, positions, orientations)
-    return vector.distance(led[0], targets_m[0]), vector.distance(led[1], targets_m[1])
+    way = (vector.distance(led[0], targets_m[0]), vector.distance(led[1], targets_m[1]))
+    targets_m[:] = led
+    return way
 
 
 @njit(cache=True)
@@ -142,33 +142,3 @@ def overrun_between(body, joint, first, last, q):
     for axis in range(3):
         worst = max(worst, min(low[axis], a[axis], b[axis]) - c[axis], c[axis] - max(high[axis], a[axis], b[axis]))
     return worst
-
-
-@njit(cache=True)
-def allowed_swivel(body, side, first, last, target_m, swivel, slerped, rotations, positions, orientations):
-    """The swivel nearest to the interpolated one, on the way to the slerped elbow's, that the shoulder's limits allow.
-
-    `slerped`: the swivel that slerping the arm alone gives. The arm (in place) ends up there.
-    """
-    joint = SHOULDERS[side]
-    apply_arm(body, rotations, positions, orientations, side, target_m, swivel, CARRIED)
-    if overrun_between(body, joint, first, last, rotations[joint]) <= 0.0:
-        return swivel
-    way = (slerped - swivel + math.pi) % (2.0 * math.pi) - math.pi
-    near, far = 0.0, 1.0
-    for _ in range(SEARCH):
-        middle = 0.5 * (near + far)
-        apply_arm(body, rotations, positions, orientations, side, target_m, swivel + middle * way, CARRIED)
-        if overrun_between(body, joint, first, last, rotations[joint]) <= 0.0:
-            far = middle
-        else:
-            near = middle
-    apply_arm(body, rotations, positions, orientations, side, target_m, swivel + far * way, CARRIED)
-    return swivel + far * way
-
-
-@njit(cache=True)
-def slerped_swivel(body, positions, orientations, rotations, side, target_m):
-    """The swivel of an arm that is swung onto a target the shortest way, its elbow left where that brings it. In place."""
-    apply_arm(body, rotations, positions, orientations, side, target_m, KEEP, CARRIED)
-    return arm_swivel(positions, orientations, side, CARRIED)

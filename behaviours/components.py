@@ -79,6 +79,7 @@ class Blend(Component):
     since = column(dtype=np.int64)
     ticks = column()  # how long it lasts; not whole, since slack stretches it
     support = column(dtype=np.int64)  # the primary support foot: side 0 or 1, or NOBODY: both ends lie
+    arcs = column(2)  # left, right: how far the hands' ways are bent off their straight lines, see `choose_arcs`
 
 
 class Sustained(Component):
@@ -146,8 +147,10 @@ class Feet(Component):
     mode = column(2, dtype=np.int64)  # FootMode
     ankle_m = column(2, 3)  # held here, or stepping to here
     turned = column(2, 4)  # the ankle's orientation in the world, likewise
+    toe = column(2, 4)  # the toe's rotation in the ankle's frame, likewise
     from_m = column(2, 3)  # a step begins here
     from_turned = column(2, 4)
+    from_toe = column(2, 4)
     lift_m = column(2)
     since = column(2, dtype=np.int64)
     ticks = column(2)

@@ -17,7 +17,6 @@ from behaviours.seams import shown
 from behaviours.search import Window, best_window, enter_window
 from behaviours.timing import TICK_S
 from engine.body.kinematics import joints_of
-from engine.body.skeleton import ANKLES
 from engine.core.schedule import Stage, system
 
 
@@ -50,9 +49,8 @@ def take_up_own_clip(world, row: int, tick: int) -> None:
     old, now = moment_before(world, row, tick), shown(world, row)[0]
     s, f, body = world[Sustained], world[Feet], body_of(world, row)
     s.root_m[row], s.rotations[row] = now
-    positions, orientations = joints_of(body, now)
-    for side, ankle in enumerate(ANKLES):
-        foot_plan.hold(f, row, side, positions[ankle], orientations[ankle])
+    for side in range(2):
+        foot_plan.hold(f, row, side, foot_plan.footing_of(body, now, side))
     enter_window(world, row, library, found)
     begin_return(world, row, tick)
     world.emit("went_on", world.entity(row), clip=clip_of(world, row).name, entered_s=return_clip_s(world, row))

@@ -35,7 +35,7 @@ from behaviours.recovery import begin_recovery, begin_return, has_fallen, resume
 from behaviours.rules.startle import startle_pose
 from behaviours.search import choose_return
 from behaviours.settling import settled_pose
-from behaviours.sources import foot_goals, source_pose
+from behaviours.sources import choose_hand_ways, foot_goals, source_pose
 from behaviours.timing import TICK_S, whole_ticks
 from engine.body.kinematics import com_of, joints_of
 from engine.body.skeleton import ANKLES, Pose
@@ -45,7 +45,7 @@ BUSY = (Phase.STARTLE, Phase.PROTECT, Phase.RESPOND, Phase.RECOVER_BLEND, Phase.
 STATE = (
     Blend, Character, Feet, Flight, Playback, Posture, Ragdoll, Reaction, Residual, Struck, Sustained, Threat,
 )  # fmt: skip
-STEP_SHARE = 0.75  # of the time to contact: a foot stands before the blow comes
+STEP_SHARE = 0.9  # of the time to contact: a foot stands before the blow comes
 
 
 def enter(world, row: int, tick: int, phase: Phase) -> None:
@@ -78,6 +78,7 @@ def begin_blend(world, row: int, tick: int, start: Pose, end: Pose, ticks: float
     body = body_of(world, row)
     positions, _ = joints_of(body, start)
     b.support[row] = primary_support(f.planted[row], positions[list(ANKLES)], com_of(body, start))
+    choose_hand_ways(world, row, start, end)
 
 
 def begin_startle(world, row: int, tick: int, threat_row: int) -> None:
@@ -108,12 +109,11 @@ def standing_in(world, row: int, tick: int, pose: Pose) -> Pose:
 
 def plant_standing_feet(world, row: int, tick: int) -> None:
     """The feet that stand in the clip are held where they are shown; the others go with the pose."""
-    f, body = world[Feet], body_of(world, row)
-    positions, orientations = joints_of(body, seams.shown(world, row)[0])
+    f, body, now = world[Feet], body_of(world, row), seams.shown(world, row)[0]
     standing = planted_in_clip(world, row, world[Reaction].clip_s[row])
-    for side, ankle in enumerate(ANKLES):
+    for side in range(2):
         if standing[side]:
-            foot_plan.hold(f, row, side, positions[ankle], orientations[ankle])
+            foot_plan.hold(f, row, side, foot_plan.footing_of(body, now, side))
         else:
             foot_plan.let_go(f, row, side)
 
@@ -133,11 +133,9 @@ def begin_protecting(world, row: int, tick: int) -> None:
 
 def plan_steps(world, row: int, tick: int, to: Pose, ticks: float) -> None:
     """Each foot is held where it is, or steps to where the pose has it."""
-    body, f = body_of(world, row), world[Feet]
-    now_m, now_turned = joints_of(body, seams.shown(world, row)[0])
-    end_m, end_turned = joints_of(body, to)
-    for side, ankle in enumerate(ANKLES):
-        start, end = (now_m[ankle], now_turned[ankle]), (end_m[ankle], end_turned[ankle])
+    body, f, now = body_of(world, row), world[Feet], seams.shown(world, row)[0]
+    for side in range(2):
+        start, end = foot_plan.footing_of(body, now, side), foot_plan.footing_of(body, to, side)
         if not world[Sustained].held[row, side]:
             foot_plan.let_go(f, row, side)
         else:
@@ -197,8 +195,10 @@ def advance_reactions(world, tick):
         elif phase == Phase.RESPOND and lasted >= whole_ticks(world[Character].response_s[row]):
             end_response(world, row, tick)
         elif phase == Phase.RECOVER_BLEND and lasted >= whole_ticks(settings.recovery.part_one_s):
+            old = moment_before(world, row, tick)
             world[Ragdoll].active[row] = False
             enter(world, row, tick, Phase.RECOVER_RETURN)
+            keep_continuous(world, row, tick, old)
         elif phase == Phase.RECOVER_RETURN and tick - 1 >= world[Blend].since[row] + world[Blend].ticks[row]:
             old = moment_before(world, row, tick)
             resume_clip(world, row, tick)

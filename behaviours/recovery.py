@@ -17,6 +17,7 @@ from behaviours.components import Blend, Feet, Playback, Reaction, Sustained
 from behaviours.placing import placed
 from behaviours.playing import body_of, clip_pose, planted_in_clip, play_from
 from behaviours.seams import shown
+from behaviours.sources import choose_hand_ways
 from behaviours.timing import TICK_S, whole_ticks
 from engine.body import footing, support
 from engine.body.kinematics import com_of, joints_of
@@ -63,12 +64,13 @@ def stand_where_the_blow_left(world, row: int, tick: int) -> None:
         height = footing.sole_depth_m(body, side)
         # where a foot that slides on comes to rest, as the seam's decay will take it there
         rest = at[ankle] + (at[ankle] - was[ankle]) / TICK_S * settle_s
-        end = (np.array([rest[0], rest[1], height]), np.array(flat))
+        end = foot_plan.Footing(np.array([rest[0], rest[1], height]), np.array(flat), np.array(quaternion.IDENTITY))
         if at[ankle, 2] - height < settings.balance.lift_over_m:
-            foot_plan.hold(f, row, side, *end)
+            foot_plan.hold(f, row, side, end)
         else:
             ticks = 0.5 * whole_ticks(settings.recovery.part_one_s)
-            foot_plan.step(f, row, side, (at[ankle], turned[ankle]), end, tick - 1, ticks, settings.balance)
+            start = foot_plan.footing_of(body, now, side)
+            foot_plan.step(f, row, side, start, end, tick - 1, ticks, settings.balance)
 
 
 def move_sustained_over_feet(world, row: int) -> None:
@@ -88,12 +90,14 @@ def plan_return(world, row: int, tick: int, begins: float) -> None:
     b.from_root_m[row], b.from_rotations[row] = sustained
     b.to_root_m[row], b.to_rotations[row] = back
     b.since[row], b.ticks[row], b.support[row] = round(begins), return_blend_ticks(world), support_side
-    end_m, end_turned = joints_of(body, back)
-    for side, ankle in enumerate(ANKLES):
-        start, end = (f.ankle_m[row, side].copy(), f.turned[row, side].copy()), (end_m[ankle], end_turned[ankle])
+    choose_hand_ways(world, row, sustained, back)
+    for side in range(2):
+        start, end = foot_plan.planned(f, row, side), foot_plan.footing_of(body, back, side)
         since, ticks = b.since[row], b.ticks[row]
         if f.mode[row, side] == foot_plan.STEPPING:  # in the air still: one step goes all the way back
-            start = (f.from_m[row, side].copy(), f.from_turned[row, side].copy())
+            start = foot_plan.Footing(
+                f.from_m[row, side].copy(), f.from_turned[row, side].copy(), f.from_toe[row, side].copy()
+            )
             since, ticks = f.since[row, side], b.since[row] + b.ticks[row] - f.since[row, side]
         foot_plan.hold_or_step(f, row, side, start, end, since, ticks, world.assets.settings.balance)
 

@@ -15,10 +15,11 @@ from behaviours.blending import FootGoals, legs_to
 from behaviours.components import Posture, Residual
 from behaviours.timing import TICK_S
 from engine.body.kinematics import joints_of
-from engine.body.skeleton import ANKLES, Body, Pose
+from engine.body.skeleton import ANKLES, TOES, Body, Pose
 
-MOMENT = 1.0 / 64.0  # of a tick: short enough for a velocity, long enough for its digits
-STILL = 1e-4  # metres and radians: below this nothing is left to see
+MOMENT = 1.0 / 512.0  # of a tick: short enough for a velocity, long enough for its digits
+STILL_FOOT_M = 5e-4  # a foot that goes no farther than this stands
+FOOT_LEVER_M, TOE_LEVER_M = 0.25, 0.08  # from the ankle, and the toe's joint, to the farthest point of the sole
 ANKLE_ROWS = list(ANKLES)
 
 
@@ -87,9 +88,15 @@ def is_over(world, row: int, tick: int, half_life_s: float) -> bool:
 
 
 def foot_is_still(world, row: int, side: int, tick: int, half_life_s: float) -> bool:
-    """Whether what is left of the last seam can no longer move this foot."""
+    """Whether what is left of the last seam can no longer move this foot, place or sole."""
     r = world[Residual]
     t, y = elapsed_s(world, row, tick), 2.0 * np.log(2.0) / half_life_s
-    left = np.abs(r.ankles[row, 0, side]).sum() * (1.0 + y * t) + np.abs(r.ankles[row, 1, side]).sum() * max(t, 1.0 / y)
-    return bool(left * np.exp(-y * t) < STILL * 10.0)
-
+    left = 0.0
+    parts = (
+        (r.ankles[row, :, side], 1.0),
+        (r.ankle_turns[row, :, side], FOOT_LEVER_M),
+        (r.joints[row, :, TOES[side]], TOE_LEVER_M),
+    )
+    for offsets, lever_m in parts:
+        left += lever_m * (np.abs(offsets[0]).sum() * (1.0 + y * t) + np.abs(offsets[1]).sum() * max(t, 1.0 / y))
+    return bool(left * np.exp(-y * t) < STILL_FOOT_M)

@@ -7,17 +7,18 @@ from __future__ import annotations
 
 import numpy as np
 
-from behaviours.blending import FootGoals, blend_end, blend_into
+from behaviours.blending import FootGoals, blend_end, blend_into, choose_arcs
 from behaviours.components import NOBODY, Blend, Character, Feet, Phase, Ragdoll, Reaction
 from behaviours.feet import goals_of
 from behaviours.lying import blend_lying
 from behaviours.playing import body_of, capsules_of, clip_pose, clip_time_s
 from behaviours.timing import TICK_S, ease, whole_ticks
 from engine.body.kinematics import joints_of
-from engine.body.skeleton import ANKLES, JOINT_COUNT, Pose
+from engine.body.skeleton import ANKLES, JOINT_COUNT, TOES, Pose
 from engine.physics import ragdoll
 
-ANKLE_ROWS = list(ANKLES)
+ANKLE_ROWS, TOE_ROWS = list(ANKLES), list(TOES)
+STRAIGHT = np.zeros(2)
 
 
 def source_pose(world, row: int, tick: float) -> Pose:
@@ -54,7 +55,7 @@ def blended(world, row: int, tick: float) -> tuple[Pose, tuple[float, float]]:
     start = blend_end(body, shape, b.from_root_m[row].copy(), b.from_rotations[row].copy())
     end = blend_end(body, shape, b.to_root_m[row].copy(), b.to_rotations[row].copy())
     weight = ease((tick - b.since[row]) / b.ticks[row])
-    return _between(world, row, tick, start, end, weight)
+    return _between(world, row, tick, start, end, weight, b.arcs[row])
 
 
 def simulation_into_sustained(world, row: int, tick: float) -> Pose:
@@ -65,17 +66,29 @@ def simulation_into_sustained(world, row: int, tick: float) -> Pose:
     weight = ease((tick - world[Reaction].since[row] + 1) / part_one)
     start = blend_end(body, shape, simulated.root_m, simulated.rotations)
     end = blend_end(body, shape, returning.root_m, returning.rotations)
-    return _between(world, row, tick, start, end, weight)[0]
+    return _between(world, row, tick, start, end, weight, STRAIGHT)[0]
 
 
-def _between(world, row, tick, start, end, weight) -> tuple[Pose, tuple[float, float]]:
+def _between(world, row, tick, start, end, weight, arcs) -> tuple[Pose, tuple[float, float]]:
     root_m, rotations = np.empty(3), np.empty((JOINT_COUNT, 4))
     goals, support = goals_of(world[Feet], row, tick), int(world[Blend].support[row])
     if support == NOBODY:
         blend_lying(body_of(world, row), start, end, weight, root_m, rotations)
         return Pose(root_m, rotations), (0.0, 0.0)
-    led_m = blend_into(body_of(world, row), capsules_of(world, row), start, end, weight, support, goals, root_m, rotations)
+    body, shape = body_of(world, row), capsules_of(world, row)
+    led_m = blend_into(body, shape, start, end, weight, support, goals, arcs, root_m, rotations)
     return Pose(root_m, rotations), led_m
+
+
+def choose_hand_ways(world, row: int, start: Pose, end: Pose) -> None:
+    """Decides, once for a blend, how each hand goes from one end to the other; see `behaviours.blending.choose_arcs`."""
+    body, shape, b = body_of(world, row), capsules_of(world, row), world[Blend]
+    b.arcs[row] = STRAIGHT
+    if b.support[row] == NOBODY:
+        return  # both ends lie
+    goals = FootGoals(np.zeros((2, 3)), np.zeros((2, 4)), np.zeros((2, 4)), np.zeros(2, bool))
+    first, last = blend_end(body, shape, *start), blend_end(body, shape, *end)
+    b.arcs[row] = choose_arcs(body, shape, first, last, int(b.support[row]), goals)
 
 
 def foot_goals(world, row: int, tick: float, source: Pose) -> FootGoals:
@@ -86,5 +99,6 @@ def foot_goals(world, row: int, tick: float, source: Pose) -> FootGoals:
     return FootGoals(
         np.where(free, positions[ANKLE_ROWS], planned.ankle_m),
         np.where(free, orientations[ANKLE_ROWS], planned.turned),
+        np.where(free, source.rotations[TOE_ROWS], planned.toe),
         np.ones(2, bool),
     )
