@@ -1,0 +1,142 @@
+"""`brace stance`: one stance of a shape set, reported, as JSON, as a picture, or as a film of getting there."""
+
+from __future__ import annotations
+
+import argparse
+from typing import Any
+
+from demos.output import check_writable, print_json, say
+
+STILLS, FILMS = (".png",), (".mp4", ".gif")
+REPEATS = 5  # the time reported is the best of these
+
+
+def register(subparsers) -> None:
+    parser = subparsers.add_parser(
+        "stance",
+        help="one stance of a shape set: how somebody stands there",
+        description="Solves one stance. SET is a shape set or one of Alberts' words for a posture, such as hunched.",
+        epilog="example: brace stance recoil-strong --intensity 0.8 --object 1.2,0.4,1.3 -o recoil.png",
+    )
+    parser.add_argument("set", metavar="SET", nargs="?", help="a shape set, or a word such as hunched; `--list` shows all")
+    parser.add_argument("--list", action="store_true", help="all shape sets with what they mean")
+    parser.add_argument("--intensity", type=float, default=1.0, metavar="X", help="how much of it; 1 is a full instance (1)")
+    parser.add_argument("--object", metavar="X,Y,Z", help="what it is about and looked at, metres: ahead, left, up")
+    parser.add_argument("--reach-left", metavar="X,Y,Z", help="where the left wrist is to be")
+    parser.add_argument("--reach-right", metavar="X,Y,Z", help="where the right wrist is to be")
+    parser.add_argument("--width", type=float, metavar="M", help="between the ankles, metres")
+    parser.add_argument("--height", type=float, default=1.75, metavar="M", help="of the person, metres (1.75)")
+    parser.add_argument("--sex", choices=("male", "female"), default="male", help="whose masses and proportions (male)")
+    parser.add_argument("--json", action="store_true", help="the report for programs")
+    parser.add_argument("-o", "--output", metavar="FILE", help=".png: front and side; .mp4, .gif: from neutral and back")
+    parser.set_defaults(run=run)
+
+
+def run(args: argparse.Namespace) -> None:
+    from behaviours.stance import report
+    from behaviours.stance.shape_sets import SETS, meaning_of
+    from engine.core.errors import BadInput
+
+    if args.list:
+        print("\n".join(f"{name:<20} {entry.low:+.0f} to {entry.high:+.0f}  {entry.meaning}" for name, entry in SETS.items()))
+        return
+    if args.set is None:
+        raise BadInput("usage", "expected a SET (`brace stance --list` shows them)")
+    meaning_of(args.set)
+    kind = _kind(args.output)
+    body, feet, points = _wanted(args)
+    result, milliseconds = _solve(body, args, feet, points)
+    if kind == "still":
+        _write_still(args.output, body, result, points)
+    elif kind == "film":
+        _write_film(args.output, body, result, points)
+    told = (body, result, args.set, args.intensity, milliseconds)
+    if args.json:
+        print_json(report.as_json(*told))
+    else:
+        print("\n".join(report.lines(*told)))
+
+
+def _wanted(args) -> tuple[Any, Any, dict[str, Any]]:
+    """Body, feet (None: as the set says) and the points that the arguments ask for."""
+    from behaviours.stance import footprints
+    from engine.body.anthropometry import standard_body
+    from engine.core.errors import BadInput
+
+    if not 0.5 <= args.height <= 2.5:
+        raise BadInput("usage", f"--height {args.height:g}: expected 0.5 to 2.5 metres")
+    if args.width is not None and not 0.0 <= args.width <= 1.5:
+        raise BadInput("usage", f"--width {args.width:g}: expected 0 to 1.5 metres")
+    body = standard_body(args.height, sex=args.sex)
+    feet = None if args.width is None else footprints.stand(body, width_m=args.width)
+    return body, feet, {
+        "object_m": _point(args.object, "--object"),
+        "reach_left_m": _point(args.reach_left, "--reach-left"),
+        "reach_right_m": _point(args.reach_right, "--reach-right"),
+    }  # fmt: skip
+
+
+def _point(text: str | None, name: str) -> tuple[float, float, float] | None:
+    """`1.2,0.4,1.3`. BadInput for anything else."""
+    from math import isfinite
+
+    from engine.core.errors import BadInput
+
+    if text is None:
+        return None
+    try:
+        x, y, z = (float(word) for word in text.split(","))
+    except ValueError:
+        x = y = z = float("nan")
+    if not all(map(isfinite, (x, y, z))):
+        raise BadInput("usage", f"{name} {text!r}: expected three numbers, such as 1.2,0.4,1.3")
+    return x, y, z
+
+
+def _solve(body, args, feet, points) -> tuple[Any, float]:
+    """The stance, and how long it took: the best of a few, the first of which may have compiled kernels."""
+    import time
+
+    from behaviours.stance.solve import solve_stance
+
+    best = float("inf")
+    for _ in range(1 + REPEATS):
+        begun = time.perf_counter()
+        result = solve_stance(body, args.set, args.intensity, feet=feet, **points)
+        best = min(best, 1000.0 * (time.perf_counter() - begun))
+    return result, best
+
+
+def _kind(output: str | None) -> str | None:
+    """`still` or `film`, by the ending; asked before any work."""
+    from pathlib import Path
+
+    from engine.core.errors import BadInput
+
+    if output is None:
+        return None
+    ending = Path(output).suffix.lower()
+    if ending not in STILLS + FILMS:
+        raise BadInput("usage", f"-o {output}: expected a name that ends in {', '.join(STILLS + FILMS)}")
+    check_writable(output)
+    return "still" if ending in STILLS else "film"
+
+
+def _write_still(output, body, result, points) -> None:
+    from demos.stance_pictures import front_and_side
+    from engine.render.capture import write_png
+
+    write_png(output, front_and_side(body, result, _marks(points)))
+    say(f"wrote {output}")
+
+
+def _write_film(output, body, result, points) -> None:
+    from demos.stance_pictures import FPS, there_and_back
+    from engine.render.capture import write_film
+
+    write_film(output, there_and_back(body, result, _marks(points)), FPS)
+    say(f"wrote {output}")
+
+
+def _marks(points) -> list[Any]:
+    return [point for point in points.values() if point is not None]

@@ -1,0 +1,77 @@
+"""Stances to look at: one from the front and the side, or the way from neutral into it and back."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Sequence
+
+import numpy as np
+
+from behaviours.stance import sequence
+from behaviours.stance.shape import shape, wind_up
+from behaviours.stance.solve import StanceResult, solve_shape
+from engine.body.skeleton import Body
+from engine.body.support import polygon_of
+from engine.render.camera import Camera, orbit_camera
+from engine.render.scene import Balance, Ball, Figure, Scene
+
+FPS = 30.0
+SIZE_PX = (480, 720)
+MARK_RADIUS_M = 0.035
+VIEWS_DEG = (0.0, -90.0)  # front, and its right side, from which it faces right
+LENS_RAD, DISTANCE_M, MIDDLE_M = math.radians(19.0), 6.4, 0.92
+WIND_UP_S, MOVE_S, HOLD_S = 0.35, 0.7, 0.9
+
+
+def scene_of(body: Body, joints_m, orientations, com_m, wanted_m, planted, marks: Sequence) -> Scene:
+    """One body with its balance on the floor, and a ball for each point that it is about."""
+    support_m = polygon_of(body, joints_m, orientations, planted)
+    return Scene(
+        figures=[Figure(body, joints_m, orientations)],
+        balls=[Ball(point, MARK_RADIUS_M, kind="mark") for point in marks],
+        balances=[Balance(support_m, com_m, wanted_m)],
+    )
+
+
+def scene_of_result(body: Body, result: StanceResult, marks: Sequence = ()) -> Scene:
+    both = np.array([True, True])
+    return scene_of(body, result.joints_m, result.orientations, result.com_m, result.plan.balance_m, both, marks)
+
+
+def camera_at(azimuth_deg: float, elevation_deg: float = 5.0) -> Camera:
+    """A long lens, so that front and side keep their proportions."""
+    return orbit_camera((0.05, 0.0, MIDDLE_M), azimuth_deg, elevation_deg, DISTANCE_M, fov_rad=LENS_RAD)
+
+
+def front_and_side(body: Body, result: StanceResult, marks: Sequence = ()) -> np.ndarray:
+    """(H, W, 3) both views side by side."""
+    from demos.filming import studio
+
+    views = []
+    with studio() as renderer:
+        for azimuth in VIEWS_DEG:
+            renderer.draw(scene_of_result(body, result, marks), camera_at(azimuth), SIZE_PX)
+            views.append(renderer.read_rgb())
+    return np.hstack(views)
+
+
+def there_and_back(body: Body, result: StanceResult, marks: Sequence = ()) -> Iterator[np.ndarray]:
+    """Pictures of neutral, a little wind-up, the stance, and neutral again."""
+    from demos.filming import studio
+
+    neutral = solve_shape(body, shape(), result.feet)
+    back = solve_shape(body, wind_up(result.shape, 0.2), result.feet)
+    moves = [
+        sequence.Move(back, WIND_UP_S, 0.0),
+        sequence.Move(result, MOVE_S, HOLD_S),
+        sequence.Move(neutral, MOVE_S, 0.3),
+    ]
+    every = round(sequence.TICK_RATE_HZ / FPS)
+    with studio() as renderer:
+        for tick, frame in enumerate(sequence.frames(body, neutral, moves)):
+            if tick % every == 0:
+                scene = scene_of(
+                    body, frame.joints_m, frame.orientations, frame.com_m, frame.com_wanted_m, frame.planted, marks
+                )
+                renderer.draw(scene, camera_at(-40.0, 8.0), SIZE_PX)
+                yield renderer.read_rgb()
