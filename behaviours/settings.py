@@ -71,7 +71,7 @@ class Block(NamedTuple):
     arm_share: Annotated[float, Constant("1", "A3.4", "of the arm's length that the far reach may use")] = 0.97
     clearance_m: Annotated[float, Constant("m", "A3.4", "palm from the target, along the line, at least")] = 0.20
     offset_m: Annotated[float, Constant("m", "A3.4", "each palm to its own side of the line")] = 0.08
-    offset_fade: Annotated[float, Constant("1", "A3.4", "cosine, shoulders to across the line, below which the offset fades")] = 0.25
+    offset_fade: Annotated[float, Constant("1", "A3.4", "cosine, shoulders to across the line, below which the offset fades")] = 0.1
     swivel_small_rad: Annotated[float, Constant("rad", "3.2.5", "elbow away from down, control 0")] = radians(70)
     swivel_large_rad: Annotated[float, Constant("rad", "3.2.5", "elbow away from down, control 1")] = radians(10)
     soften_m: Annotated[float, Constant("m", "A3.4", "width over which reach, clearance and plane meet")] = 0.02
@@ -83,9 +83,9 @@ class Wrap(NamedTuple):
     behind_low: Annotated[float, Constant("1", "A5", "facing . threat at and below which the arms wrap fully")] = -0.15
     behind_high: Annotated[float, Constant("1", "A5", "facing . threat at and above which they block fully")] = 0.15
     palm_gap_m: Annotated[float, Constant("m", "3.4", "skin of the hand off the back of the head")] = 0.0
-    palm_apart_m: Annotated[float, Constant("m", "3.4", "each palm off the middle")] = 0.05
+    palm_apart_m: Annotated[float, Constant("m", "3.4", "each palm off the middle")] = 0.075
     palm_below_m: Annotated[float, Constant("m", "3.4", "palms below the head's centre")] = 0.02
-    fingers_inward_rad: Annotated[float, Constant("rad", "3.4", "fingers from upright towards each other")] = radians(55)
+    fingers_inward_rad: Annotated[float, Constant("rad", "3.4", "fingers from upright towards each other")] = radians(20)
     swivel_rad: Annotated[float, Constant("rad", "3.4", "elbow away from down, wrapped around the head")] = radians(110)
 
 
@@ -126,7 +126,8 @@ class Objective(NamedTuple):
     pelvis_height_weight: Annotated[float, Constant("1", "A4", "weight of the pelvis's height")] = 1.0
     feet_weight: Annotated[float, Constant("1", "A4", "weight of each foot's distance")] = 5.0
     control_weight: Annotated[float, Constant("1", "A4", "weight of each control's change")] = 0.1
-    limits_weight: Annotated[float, Constant("1/rad", "A", "weight of what joint limits and trunk forbid each limb")] = 3.0
+    limits_weight: Annotated[float, Constant("1/rad", "A", "weight of what joint limits forbid each leg")] = 3.0
+    arms_weight: Annotated[float, Constant("1/rad", "A", "weight of what joint limits and trunk forbid each arm")] = 0.3
     outside_weight: Annotated[float, Constant("1", "A4", "weight of a control's excess over [0, 1]")] = 1.0
     smoothing_m: Annotated[float, Constant("m", "A4", "rounding of the smoothed form's norms")] = 0.01
 
@@ -213,7 +214,7 @@ class Search(NamedTuple):
     auto_over_m: Annotated[float, Constant("m", "A9", "auto: a new motion if the blow moved the body more than this")] = 0.06
     own_clip: Annotated[bool, Constant("yes/no", "A9", "whether the clip that was played counts as new")] = False
     velocity_s: Annotated[float, Constant("s", "A9", "a velocity counts as the distance it goes in this time")] = 0.1
-    candidates: Annotated[int, Constant("count", "A9", "windows of the prefilter that are compared exactly")] = 96
+    candidates: Annotated[int, Constant("count", "A9", "windows of the prefilter that are compared exactly")] = 192
     least_left_s: Annotated[float, Constant("s", "A9", "of a motion that ends, after it is entered")] = 1.0
     rest_mps: Annotated[float, Constant("m/s", "A8", "mean speed of a body that has come to rest")] = 0.12
     rest_s: Annotated[float, Constant("s", "A8", "how long it lies still before it gets up")] = 0.4
