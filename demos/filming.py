@@ -11,6 +11,7 @@ import numpy as np
 
 from behaviours.components import Character, Phase, Reaction
 from behaviours.scenario import Scenario
+from demos.frames import frames_of
 from demos.stage import pelvis_m, scene_of
 from engine.core.clock import TICK_RATE_HZ
 from engine.core.errors import BadInput
@@ -52,17 +53,8 @@ class Moment(NamedTuple):
 
 def moments(world, advance: Callable[[], None], ticks: int, shot: Shot) -> Iterator[Moment]:
     """Steps a world through that many ticks and gives what is to be seen at every frame."""
-    for frame in range(frame_count(ticks, shot)):
-        at = frame * TICK_RATE_HZ / shot.fps
-        tick = min(math.ceil(at - 1e-9), ticks)
-        while world.tick < tick:
-            advance()
-        yield moment(world, 1.0 - (tick - at), shot.ghosts)
-
-
-def frame_count(ticks: int, shot: Shot) -> int:
-    """How many pictures a run of that many ticks gives."""
-    return math.floor(ticks * shot.fps / TICK_RATE_HZ + 1e-9) + 1
+    for alpha in frames_of(world, advance, ticks, shot.fps):
+        yield moment(world, alpha, shot.ghosts)
 
 
 def placed_for(shot: Shot, scenario: Scenario) -> Shot:

@@ -48,12 +48,13 @@ def run(args: argparse.Namespace) -> None:
 
 def write_film(renderer, output, world, advance, ticks: int, shot) -> None:
     """The whole run as moving pictures."""
-    from demos.filming import film_pictures, frame_count, moments
+    from demos.filming import film_pictures, moments
+    from demos.frames import frame_count
     from demos.running import with_progress
     from engine.render.capture import write_film
 
     drawn = film_pictures(renderer, moments(world, advance, ticks, shot), shot)
-    write_film(output, with_progress(drawn, "drawing", frame_count(ticks, shot)), shot.fps)
+    write_film(output, with_progress(drawn, "drawing", frame_count(ticks, shot.fps)), shot.fps)
 
 
 def write_strip(renderer, output, simulation, shot, frames=None, columns=None, from_s=None, to_s=None) -> None:

@@ -1,7 +1,7 @@
 """Biovision hierarchy files (.bvh) of canonical motion: what `engine.clips.bvh` reads, and what other programs open.
 
-The file's axes are the usual ones: Y up, Z ahead, X to the left, so that somebody who faces our +X faces +Z there.
-Lengths are centimetres. A joint turns by Z, X and Y in that order of channels; at rest one stands with hanging arms.
+The file's axes are the usual ones, see `engine.maths.y_up`. Lengths are
+centimetres. A joint turns by Z, X and Y in that order of channels; at rest one stands upright with hanging arms.
 """
 
 from __future__ import annotations
@@ -10,6 +10,7 @@ import numpy as np
 
 from engine.body.skeleton import HEAD, JOINTS, PARENT, TOES, WRISTS, Body, Pose
 from engine.maths import rotations
+from engine.maths.y_up import y_up, y_up_rotations
 
 CM_PER_M = 100.0
 ROOT_CHANNELS = "CHANNELS 6 Xposition Yposition Zposition Zrotation Xrotation Yrotation"
@@ -22,16 +23,6 @@ def bvh_text(body: Body, pose: Pose, fps: float) -> str:
     Angles to 1e-5 degrees and lengths to a micrometre: read again, every joint is within 0.01 mm of where it was.
     """
     return "\n".join([*_hierarchy(body), *_motion(pose, fps)]) + "\n"
-
-
-def y_up(vectors: np.ndarray) -> np.ndarray:
-    """(..., 3) from X ahead, Y left, Z up to X left, Y up, Z ahead. glTF's axes are the same."""
-    return np.asarray(vectors)[..., [1, 2, 0]]
-
-
-def y_up_rotations(quaternions: np.ndarray) -> np.ndarray:
-    """The same change of axes for rotations (..., 4), w x y z."""
-    return np.asarray(quaternions)[..., [0, 2, 3, 1]]
 
 
 def _hierarchy(body: Body) -> list[str]:
