@@ -18,6 +18,7 @@ from engine.body.limits import clamp_rotation
 from engine.body.skeleton import BACK, CLAVICLES, ELBOWS, HEAD, SHOULDERS, WRISTS
 from engine.body.two_bones import SOFT_REACH_M, soft_reach
 from engine.maths import quaternion, vector
+from engine.maths.shapes import distance_to_segment, outwards
 
 SAME_TURN_RAD = 1e-6  # a hand that got the turn it wanted needs no second look
 
@@ -52,6 +53,7 @@ def guard(
     palm, hand, swivel = guard_goal(
         side, reach_control, swivel_control, build, threat, choices, rules, positions, orientations
     )
+    palm = clear_of_trunk(palm, build.hand_radius_m, obstacles, build.obstacle_radius_m, rules.block.soften_m)
     turned, wrong = hand, 0.0
     for _ in range(2):
         # a hand stopped by its limits holds its palm elsewhere: the arm follows once
@@ -100,6 +102,19 @@ def guard_goal(side, reach_control, swivel_control, build, threat, choices, rule
         hand = quaternion.slerp(hand, block.hand_facing(side, normal, fingers), choices.wrap)
         swivel += (w.swivel_rad - swivel) * choices.wrap
     return palm, hand, swivel
+
+
+@njit(cache=True)
+def clear_of_trunk(palm, hand_radius_m, obstacles, radii_m, soften_m):
+    """A palm's target pushed out of trunk and head, as far as the hand is thick. obstacles (C, 6), see limb_freedom."""
+    for c in range(len(radii_m)):
+        start = (obstacles[c, 0], obstacles[c, 1], obstacles[c, 2])
+        stop = (obstacles[c, 3], obstacles[c, 4], obstacles[c, 5])
+        apart = distance_to_segment(start, stop, palm)
+        if apart < hand_radius_m + radii_m[c] + soften_m:
+            out = block.smooth_max(apart, hand_radius_m + radii_m[c], soften_m) - apart
+            palm = vector.along(palm, outwards(start, stop, palm), out)
+    return palm
 
 
 @njit(cache=True)
@@ -158,3 +173,12 @@ def turn_hand(side, hand, offset_m, low_rad, high_rad, rotations, positions, ori
     quaternion.put(rotations, wrist, swing)
     clamp(low_rad, high_rad, rotations, wrist)
     place_children(offset_m, rotations, positions, orientations, elbow, wrist)
+
+
+@njit(cache=True)
+def stop_shoulder(side, offset_m, low_rad, high_rad, rotations, positions, orientations):
+    """Holds one shoulder within its limits and carries arm and hand along, in place."""
+    clavicle, wrist = CLAVICLES[side], WRISTS[side]
+    clamp(low_rad, high_rad, rotations, SHOULDERS[side])
+    for joint in range(clavicle + 1, wrist + 1):
+        place_children(offset_m, rotations, positions, orientations, joint - 1, joint)

@@ -17,7 +17,7 @@ from engine.body.limb_ik import place_children
 from engine.body.limits import components
 from engine.body.skeleton import ANKLES, CLAVICLES, ELBOWS, HIPS, KNEES, PELVIS, SHOULDERS, TOES, WRISTS
 from engine.maths import quaternion, vector
-from engine.maths.shapes import distance_to_segment
+from engine.maths.shapes import nearest_between
 
 STEP_RAD = math.radians(12.0)
 ARM_STEPS, LEG_STEPS = 8, 4  # how far to look, to either side
@@ -58,18 +58,17 @@ def overrun_rad(low, high, margin_rad, q):
 
 @njit(cache=True)
 def depth_m(mid, end, arm_radius_m, obstacles, radii_m):
-    """How deep an arm lies inside trunk and head: its elbow in any part, the middle of its forearm in the last two.
+    """How deep a forearm, from mid to end, lies inside trunk or head, metres.
 
     obstacles (C, 6): both ends of every capsule, world; radii_m: C of them.
     """
-    deepest, forearm = 0.0, vector.mix(mid, end, 0.5)
+    deepest = 0.0
     for c in range(len(radii_m)):
         start = (obstacles[c, 0], obstacles[c, 1], obstacles[c, 2])
         stop = (obstacles[c, 3], obstacles[c, 4], obstacles[c, 5])
-        apart = arm_radius_m + radii_m[c]
-        deepest = max(deepest, apart - distance_to_segment(start, stop, mid))
-        if c >= len(radii_m) - 2:
-            deepest = max(deepest, apart - distance_to_segment(start, stop, forearm))
+        s, t = nearest_between(start, stop, mid, end)
+        apart = vector.distance(vector.mix(start, stop, s), vector.mix(mid, end, t))
+        deepest = max(deepest, arm_radius_m + radii_m[c] - apart)
     return deepest
 
 

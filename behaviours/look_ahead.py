@@ -7,18 +7,32 @@ pelvis is drawn within reach, and no farther ahead than the planted legs allow.
 
 from __future__ import annotations
 
+from typing import NamedTuple
+
 import numpy as np
 from numba import njit
 
 from behaviours.apply_rules import place_trunk, plant_leg
 from behaviours.plant import pull_pelvis
 from behaviours.rules.controls import LEAN, TURN
+from engine.body.kinematics import joints_into
+from engine.body.skeleton import HIPS, PELVIS
 from engine.body.two_bones import SOFT_REACH_M
 from engine.maths import quaternion, vector
 
 SHARES = 8  # of the look-ahead that are tried, all of it first
 HALVINGS = 10
 BRACED_M = (1.1, -0.04)  # where bracing takes the pelvis: shares of the COM's way, metres down; medians of real frames
+
+
+class PelvisWay(NamedTuple):
+    """The pelvis at perception and at the look-ahead, world; and the thighs of planted legs at perception, (2, 4)."""
+
+    now_m: tuple[float, float, float]
+    now_turned: tuple[float, float, float, float]
+    ahead_m: tuple[float, float, float]
+    ahead_turned: tuple[float, float, float, float]
+    thighs: np.ndarray
 
 
 @njit(cache=True)
@@ -44,46 +58,53 @@ def legs_trouble(task, controls, root_m, posed):
 
 
 @njit(cache=True)
-def pelvis_on_its_way(task, controls, now_m, ahead_m, share, leg_share, posed):
-    """(3,) the pelvis this share of the way from now to ahead, drawn within reach of the planted feet."""
-    x, y, z = vector.mix(now_m, ahead_m, share)
-    root_m = np.array((x, y, z))
-    legs_trouble(task, controls, (x, y, z), posed)
-    return root_m + pull_pelvis(task.build.leg_m, posed.positions, task.feet, leg_share)
+def set_pelvis(task, controls, way, share, leg_share, posed):
+    """Puts the start pose's pelvis this share of its way, drawn within reach of the planted feet, in place."""
+    start, bones = task.start, task.bones
+    root = vector.mix(way.now_m, way.ahead_m, share)
+    quaternion.put(start.rotations, PELVIS, quaternion.slerp(way.now_turned, way.ahead_turned, share))
+    joints_into(bones.offset_m, root, start.rotations, posed.positions, start.orientations)
+    for side in range(2):
+        if task.feet.held[side]:  # a planted leg's thigh starts from where it is in the world, whatever the pelvis does
+            quaternion.put(start.orientations, HIPS[side], quaternion.at(way.thighs, side))
+    legs_trouble(task, controls, root, posed)
+    pulled = pull_pelvis(task.build.leg_m, posed.positions, task.feet, leg_share)
+    for k in range(3):
+        start.root_m[k] = root[k] + pulled[k]
 
 
 @njit(cache=True)
-def _braced_trouble(task, controls, now_m, ahead_m, share, leg_share, braced, posed):
-    root = pelvis_on_its_way(task, controls, now_m, ahead_m, share, leg_share, posed)
+def _braced_trouble(task, controls, way, share, leg_share, braced, posed):
+    set_pelvis(task, controls, way, share, leg_share, posed)
+    root = task.start.root_m
     return legs_trouble(task, controls, (root[0] + braced[0], root[1] + braced[1], root[2] + braced[2]), posed)
 
 
 @njit(cache=True)
-def farthest_ahead(task, controls, now_m, ahead_m, leg_share, brace_m, posed):
-    """The share of the look-ahead, at most 1, that the planted legs allow, braced; the least bad where none is allowed.
+def go_ahead(task, controls, way, leg_share, brace_m, posed):
+    """Puts the start pose's pelvis as far on its way as the planted legs allow, braced, in place.
 
-    now_m, ahead_m: the pelvis at perception and at the look-ahead, tuples, world metres.
+    Returns the share, at most 1; the least bad one where none is allowed.
     """
     direction = task.threat.direction
     towards = vector.unit((-direction[0], -direction[1], 0.0), (0.0, 0.0, 0.0))
     forward, down = BRACED_M
     braced = (towards[0] * brace_m * forward, towards[1] * brace_m * forward, down)
     best = 1.0
-    least = _braced_trouble(task, controls, now_m, ahead_m, best, leg_share, braced, posed)
+    least = _braced_trouble(task, controls, way, best, leg_share, braced, posed)
     for k in range(1, SHARES + 1):
         if least == 0.0:
             break
         share = 1.0 - k / SHARES
-        wrong = _braced_trouble(task, controls, now_m, ahead_m, share, leg_share, braced, posed)
+        wrong = _braced_trouble(task, controls, way, share, leg_share, braced, posed)
         if wrong < least - 1e-9:
             best, least = share, wrong
-    if best == 1.0 or least > 0.0:
-        return best
     too_far = best + 1.0 / SHARES
-    for _ in range(HALVINGS):
+    for _ in range(HALVINGS if best < 1.0 and least == 0.0 else 0):
         middle = 0.5 * (best + too_far)
-        if _braced_trouble(task, controls, now_m, ahead_m, middle, leg_share, braced, posed) == 0.0:
+        if _braced_trouble(task, controls, way, middle, leg_share, braced, posed) == 0.0:
             best = middle
         else:
             too_far = middle
+    set_pelvis(task, controls, way, best, leg_share, posed)
     return best

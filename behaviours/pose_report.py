@@ -26,7 +26,7 @@ from engine.clips.playback import planted_at, sample
 from engine.maths import quaternion, vector
 
 AIM_PASSES = 3  # the aim depends on the lean, the lean on the direction of travel, that on the aim
-REPORTED_ERRORS = ("balance", "hands", "torso", "pelvis_height", "feet", "controls", "limits", "total")
+REPORTED_ERRORS = ("balance", "hands", "torso", "pelvis_height", "feet", "controls", "limits", "arms", "total")
 
 
 class PoseCase(NamedTuple):
@@ -39,6 +39,7 @@ class PoseCase(NamedTuple):
     size: float
     target: str = "head"
     kind: str = "volleyball"
+    size_means: str = "rule"
 
 
 class PosedCase(NamedTuple):
@@ -53,7 +54,7 @@ class PosedCase(NamedTuple):
 
 def pose_case(clip: Clip, case: PoseCase, settings: Settings, previous_turn_side: float = 0.0) -> PosedCase:
     """The protective pose of a clip's subject at a time against a scripted threat. ValueError for an unknown target."""
-    make = make_threat(case.kind, case.speed_mps, case.size)
+    make = make_threat(case.kind, case.speed_mps, case.size, size_means=case.size_means)
     now = sample(clip, case.at_s)
     heading = float(quaternion.heading(now.rotations[PELVIS]))
     _, orientations = joints_of(clip.body, now)

@@ -9,7 +9,7 @@ from numba import njit
 
 from behaviours import plant
 from behaviours.apply_rules import hang_leg, place_trunk
-from behaviours.look_ahead import farthest_ahead, pelvis_on_its_way
+from behaviours.look_ahead import PelvisWay, go_ahead
 from behaviours.perceived import PerceivedThreat, target_centre
 from behaviours.rules.controls import LEAN, TURN, controls_from_threat
 from behaviours.rules.turn import turn_side, wanted_turn
@@ -66,10 +66,15 @@ def prepare(
     controls = controls_from_threat(threat.speed_norm, threat.size_norm)
     posed = new_posed()
     leg_share = settings.balance.leg_share
-    now_m, ahead_m = _triple(ahead_positions[PELVIS] if landing else pose_now.root_m), _triple(pose_ahead.root_m)
-    share = farthest_ahead(task, controls, now_m, ahead_m, leg_share, settings.balance.brace_m, posed)
-    root_m = pelvis_on_its_way(task, controls, now_m, ahead_m, share, leg_share, posed)
-    task = task._replace(start=start._replace(root_m=root_m))
+    standing_in = pose_ahead if landing else pose_now
+    way = PelvisWay(
+        _floats(standing_in.root_m),
+        _floats(standing_in.rotations[PELVIS]),
+        _floats(pose_ahead.root_m),
+        _floats(pose_ahead.rotations[PELVIS]),
+        (ahead_orientations if landing else now_orientations)[list(HIPS)],
+    )
+    go_ahead(task, controls, way, leg_share, settings.balance.brace_m, posed)
     place_hips(task, controls, posed)
     if feet.held.any():
         feet = plant.set_down(body, feet, posed.positions[list(HIPS)], ahead_positions, ahead_orientations, leg_share)
@@ -77,8 +82,8 @@ def prepare(
     return task._replace(choices=choose_guard(task, posed))
 
 
-def _triple(v) -> tuple[float, float, float]:
-    return (float(v[0]), float(v[1]), float(v[2]))
+def _floats(row) -> tuple[float, ...]:
+    return tuple(float(v) for v in row)
 
 
 def start_pose(body: Body, pose_now: Pose, pose_ahead: Pose, legs_ahead) -> Start:

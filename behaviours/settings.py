@@ -127,7 +127,7 @@ class Objective(NamedTuple):
     feet_weight: Annotated[float, Constant("1", "A4", "weight of each foot's distance")] = 5.0
     control_weight: Annotated[float, Constant("1", "A4", "weight of each control's change")] = 0.1
     limits_weight: Annotated[float, Constant("1/rad", "A", "weight of what joint limits forbid each leg")] = 3.0
-    arms_weight: Annotated[float, Constant("1/rad", "A", "weight of what joint limits and trunk forbid each arm")] = 0.3
+    arms_weight: Annotated[float, Constant("1/rad", "A", "weight of what joint limits and trunk forbid each arm")] = 1.0
     outside_weight: Annotated[float, Constant("1", "A4", "weight of a control's excess over [0, 1]")] = 1.0
     smoothing_m: Annotated[float, Constant("m", "A4", "rounding of the smoothed form's norms")] = 0.01
 

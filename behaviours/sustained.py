@@ -10,6 +10,7 @@ from numba import njit
 
 from behaviours import minimise
 from behaviours.apply_rules import apply_rules
+from behaviours.guard import stop_shoulder
 from behaviours.perceived import PerceivedThreat
 from behaviours.prepare import prepare
 from behaviours.rules.controls import CONTROL_COUNT, controls_from_threat
@@ -19,17 +20,20 @@ from behaviours.task import Choices, FeetPlan, Posed, Task, new_posed
 from behaviours.total_error import (
     FORMS,
     RESIDUALS,
+    TERMS,
     Reference,
     residuals_into,
     term_errors,
     total_error,
 )
 from engine.body.kinematics import centre_of_mass
-from engine.body.skeleton import BACK, HIPS, PELVIS, WAIST, Body, Pose
+from engine.body.skeleton import BACK, HIPS, PELVIS, WAIST, WRISTS, Body, Pose
+from engine.body.two_bones import SOFT_REACH_M
 from engine.body.support import inside, polygon_of
-from engine.maths import vector
+from engine.maths import quaternion, vector
 
 EXACT = 0.0  # leg reach without the soft end: for poses that are shown
+DEARER = (5.0, 25.0, 125.0)  # rounds of making limits cost more, where legs still overstep them
 LOWERINGS = 20  # each closes what is missing but for the leg's slant
 
 
@@ -113,13 +117,14 @@ def solve_protection(body: Body, task: Task, settings: Settings) -> Protection:
             SolverReport(settings.solver.method, 0, 0, 0, "not needed", 0), task, reference,
         )  # fmt: skip
     solution, polishing = solve(task, reference, form, start, posed, settings)
+    solution = keep_limits(task, reference, solution, posed, settings)
     shift, controls_end = solution.variables[:3].copy(), np.clip(solution.variables[3:], 0.0, 1.0)
     shift += pose_exactly(task, shift, controls_end, posed, settings.balance.foot_tolerance_m)
     sustained, com = _pose_of(posed), np.array(centre_of_mass(task.bones, posed.positions, posed.orientations))
     support = polygon_of(body, posed.positions, posed.orientations, task.feet.held)
     final = np.concatenate([shift, solution.variables[3:]])
     residuals_into(task, reference, final, scratch, posed, residuals)
-    errors = term_errors(residuals) | {"total": float(solution.value)}
+    errors = term_errors(residuals) | {"total": float(total_error(residuals, reference, form))}
     case = case_of(inside(support_rules, com_rules[:2]), inside(support, com[:2]))
     report = SolverReport(
         settings.solver.method,
@@ -155,6 +160,34 @@ def solve(
     return found._replace(variables=variables, value=value), int(polished.evaluations)
 
 
+def keep_limits(task: Task, reference: Reference, found: Solution, posed: Posed, settings: Settings) -> Solution:
+    """The solution with the planted legs inside their limits, where there is one: what they forbid is made to cost more.
+
+    A weight only trades limits off against the rest; the margin that limbs keep takes up what the greatest leaves over.
+    Legs reach exactly here, as in the pose that is shown: the last millimetres of a stretched leg are degrees of its hip.
+    """
+    limits, tolerance_m = TERMS.index("limits"), settings.balance.foot_tolerance_m
+    best, least = found, _legs_trouble(task, found.variables, posed, tolerance_m)
+    begin = found.variables
+    for dearer in DEARER:
+        if least < task.rules.limit_margin_rad:
+            break
+        weights = list(reference.weights)
+        weights[limits] *= dearer
+        strict = reference._replace(weights=tuple(weights), soft_m=EXACT)
+        begin = solve_least_squares(task, strict, begin, posed, settings.solver.polish_tolerance, 20).variables
+        wrong = _legs_trouble(task, begin, posed, tolerance_m)
+        if wrong < 0.9 * least:
+            best, least = found._replace(variables=begin), wrong
+    return best
+
+
+def _legs_trouble(task: Task, variables: np.ndarray, posed: Posed, tolerance_m: float) -> float:
+    """What limits forbid the planted legs in the pose that would be shown, radians."""
+    pose_exactly(task, variables[:3].copy(), np.clip(variables[3:], 0.0, 1.0), posed, tolerance_m)
+    return float(posed.trouble[:2].max())
+
+
 def refer_to(task: Task, posed: Posed, com_m, controls, settings: Settings) -> Reference:
     """What the errors are measured from: the rules pose in `posed`, and the COM wanted, once and for all."""
     o = settings.objective
@@ -167,7 +200,7 @@ def refer_to(task: Task, posed: Posed, com_m, controls, settings: Settings) -> R
     wanted = com_m[:2] + settings.balance.brace_m * towards
     weights = (
         o.balance_weight, o.hands_weight, o.torso_weight, o.pelvis_height_weight, o.feet_weight,
-        o.control_weight, o.limits_weight, o.outside_weight,
+        o.control_weight, o.limits_weight, o.arms_weight, o.outside_weight,
     )  # fmt: skip
     return Reference(
         (float(wanted[0]), float(wanted[1])),
@@ -177,6 +210,7 @@ def refer_to(task: Task, posed: Posed, com_m, controls, settings: Settings) -> R
         controls.copy(),
         weights,
         o.smoothing_m,
+        SOFT_REACH_M,
     )
 
 
@@ -198,6 +232,15 @@ def pose_exactly(task, shift, controls, posed, tolerance_m):
         if missing == 0.0:
             break
         apply_rules(task, shift + given, controls, EXACT, posed)
+    low_rad, high_rad = task.start.low_rad, task.start.high_rad
+    for side in range(2):
+        # what no swivel of the elbow could mend: the shoulder stops, and the hand with it
+        if posed.trouble[2 + side] > 0.0:
+            stop_shoulder(
+                side, task.bones.offset_m, low_rad, high_rad, posed.rotations, posed.positions, posed.orientations
+            )
+            palm = quaternion.rotate(quaternion.at(posed.orientations, WRISTS[side]), task.build.palm_m[side])
+            vector.put(posed.palms, side, vector.add(vector.at(posed.positions, WRISTS[side]), palm))
     return given
 
 

@@ -41,7 +41,7 @@ class Build(NamedTuple):
     head_centre_m: Triple  # in the head's frame
     head_radius_m: float
     hand_radius_m: float
-    arm_radius_m: tuple[float, float]
+    arm_radius_m: tuple[float, float]  # of the forearms
     obstacle_radius_m: tuple[float, float, float, float]  # of OBSTACLES
 
 
@@ -134,7 +134,7 @@ def bones_of(body: Body) -> tuple[Bones, Build]:
         head_centre_m(body),
         float(capsules.radius_m[row("head")]),
         float(capsules.radius_m[row("left_hand")]),
-        tuple(capsules.radius_m[[row("left_upper_arm"), row("right_upper_arm")]].tolist()),
+        tuple(capsules.radius_m[[row("left_forearm"), row("right_forearm")]].tolist()),
         tuple(capsules.radius_m[obstacles].tolist()),
     )
     return bones, build

@@ -18,18 +18,17 @@ from numba import njit
 from behaviours.apply_rules import update_pose
 from behaviours.rules.controls import CONTROL_COUNT
 from engine.body.kinematics import centre_of_mass
-from engine.body.two_bones import SOFT_REACH_M
 from engine.body.skeleton import ANKLES, PELVIS
 from engine.maths import quaternion
 
-TERMS = ("balance", "hands", "torso", "pelvis_height", "feet", "controls", "limits", "outside")
+TERMS = ("balance", "hands", "torso", "pelvis_height", "feet", "controls", "limits", "arms", "outside")
 VARIABLES = 3 + CONTROL_COUNT
 FORMS = ("squares", "literal", "smoothed")
 SQUARES, LITERAL, SMOOTHED = range(len(FORMS))
 
 # where each term's residuals begin; the norms of the literal form are taken over runs of two or three of them
-BALANCE, HANDS, TORSO, HEIGHT, FEET, CONTROLS, LIMITS, OUTSIDE, RESIDUALS = 0, 2, 8, 17, 18, 24, 31, 35, 42
-BEGIN = (BALANCE, HANDS, TORSO, HEIGHT, FEET, CONTROLS, LIMITS, OUTSIDE, RESIDUALS)
+BALANCE, HANDS, TORSO, HEIGHT, FEET, CONTROLS, LIMITS, ARMS, OUTSIDE, RESIDUALS = 0, 2, 8, 17, 18, 24, 31, 33, 35, 42
+BEGIN = (BALANCE, HANDS, TORSO, HEIGHT, FEET, CONTROLS, LIMITS, ARMS, OUTSIDE, RESIDUALS)
 
 
 class Reference(NamedTuple):
@@ -40,8 +39,9 @@ class Reference(NamedTuple):
     trunk: np.ndarray  # (3, 4) world orientations of pelvis, waist, back
     pelvis_z: float
     controls: np.ndarray  # (7,)
-    weights: tuple[float, float, float, float, float, float, float, float]  # one a term
+    weights: tuple[float, ...]  # one a term
     smoothing_m: float
+    soft_m: float  # over which a leg's reach ends
 
 
 @njit(cache=True, forceinline=True)
@@ -56,7 +56,7 @@ def residuals_into(task, reference, variables, controls, posed, residuals):
         controls[i] = min(1.0, max(0.0, value))
         residuals[CONTROLS + i] = controls[i] - reference.controls[i]
         residuals[OUTSIDE + i] = value - controls[i]
-    update_pose(task, variables, controls, SOFT_REACH_M, posed)
+    update_pose(task, variables, controls, reference.soft_m, posed)
     com = centre_of_mass(task.bones, posed.positions, posed.orientations)
     residuals[BALANCE] = com[0] - reference.com_wanted_m[0]
     residuals[BALANCE + 1] = com[1] - reference.com_wanted_m[1]
@@ -72,7 +72,7 @@ def residuals_into(task, reference, variables, controls, posed, residuals):
         for k in range(3):
             residuals[TORSO + 3 * joint + k] = turn[1 + k]
     residuals[HEIGHT] = posed.positions[PELVIS, 2] - reference.pelvis_z
-    for limb in range(4):
+    for limb in range(4):  # legs, then arms
         residuals[LIMITS + limb] = posed.trouble[limb]
 
 
