@@ -6,7 +6,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from behaviours.stance import gaze, penalty, solver, torso
+from behaviours.stance import gaze, penalty, torso, wrists
 from behaviours.stance.solve import StanceResult
 from engine.body import limits, support
 from engine.body.skeleton import ANKLES, PELVIS, Body
@@ -60,7 +60,7 @@ def penalties(result: StanceResult) -> dict[str, float]:
         terms[name] = float(wishes.weight[u] * penalty.penalty_of(wishes.wanted[u], result.unknowns[u]))
     for side, name in enumerate(("reach_left", "reach_right")):
         if plan.reaching[side]:
-            away = solver.reach_distance_m(plan, result.joints_m, side)
+            away = wrists.reach_distance_m(plan, result.joints_m, side)
             terms[name] = float(wishes.reach_weight * penalty.penalty_of(wishes.reach[side], away))
     return terms
 

@@ -6,7 +6,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from behaviours.stance import arms, balance, footprints, lower_body, penalty, shape_sets, solver, torso
+from behaviours.stance import arms, balance, footprints, lower_body, penalty, shape_sets, solver, torso, wrists
 from behaviours.stance.around import look_around
 from behaviours.stance.assembly import Plan, new_figure
 from behaviours.stance.footprints import Footprints
@@ -98,7 +98,7 @@ def solve_shape(
     feet = footprints.raised(body, feet, wanted.numbers.rise_rad)
     plan = plan_of(body, wanted, feet, reach_m, look_at_m, balance_m)
     wishes = wishes_of(body, wanted, places)
-    kept, unknowns, search, figure, outcome, wrists = _solve_within_limits(body, plan, wishes)
+    kept, unknowns, search, figure, outcome, found = _solve_within_limits(body, plan, wishes)
     plan = _eased(body, plan, kept)
     return StanceResult(
         pose=Pose(figure.root_m, figure.rotations),
@@ -112,8 +112,8 @@ def solve_shape(
         balance_rad=search.offset_rad,
         feet=feet,
         com_m=np.array(kinematics.centre_of_mass(body, figure.positions, figure.orientations)),
-        wrist_error_m=wrists[solver.MISS],
-        swivel_rad=wrists[solver.SWIVEL],
+        wrist_error_m=found[wrists.MISS],
+        swivel_rad=found[wrists.SWIVEL],
         kept=kept,
     )
 
@@ -193,7 +193,7 @@ def unknowns_of(wanted: Shape) -> np.ndarray:
 def _solve_within_limits(body, plan, wishes):
     """Solves; where a leg would break a limit, with so much of the lower body's wishes as it allows (by halving).
 
-    Returns (share kept, unknowns, balance search, figure, outcome, (wrist errors, swivels)).
+    Returns (share kept, unknowns, balance search, figure, outcome, wrists (3, 2)).
     """
     kept, solved = 1.0, _solve(body, plan, wishes)
     for _ in range(MOST_EASINGS):
@@ -220,10 +220,10 @@ def _share_allowed(body, plan, unknowns, refused):
 
 def _solve(body, plan, wishes):
     unknowns, search, figure = wishes.wanted[:, penalty.WANTED].copy(), balance.new_search(plan.lower), new_figure()
-    wrists = np.zeros((3, 2))
+    found = np.zeros((3, 2))
     plan = plan._replace(arm=plan.arm.copy())  # the solver may change the swivels
-    outcome = solver.solve_torso(body, plan, wishes, unknowns, search, figure, wrists)
-    return unknowns, search, figure, outcome, wrists
+    outcome = solver.solve_torso(body, plan, wishes, unknowns, search, figure, found)
+    return unknowns, search, figure, outcome, found
 
 
 def _eased(body, plan, share) -> Plan:
