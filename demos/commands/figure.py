@@ -21,7 +21,13 @@ def register(subparsers) -> None:
     )
     parser.add_argument("name", metavar="NAME", help="a figure's number or word, `all`, or `list`")
     parser.add_argument("-o", "--output", metavar="OUT", help="the file; for `all` a folder")
-    parser.add_argument("--scale", type=float, default=SCALE, metavar="N", help=f"pixels for a unit ({SCALE:g}); a page is 1000 units wide")
+    parser.add_argument(
+        "--scale",
+        type=float,
+        default=SCALE,
+        metavar="N",
+        help=f"pixels for a unit ({SCALE:g}); a page is 1000 units wide",
+    )
     parser.set_defaults(run=run)
 
 
@@ -72,5 +78,8 @@ def _print_all(names: list[str], paths: list[Path], scale: float) -> None:
             press = Press(renderer, scale)
             draw_figure(name, press).save(path)
             if press.missing:
-                print(f"figure {name}: the embedded clip stands in for {', '.join(press.missing)}; `brace clips fetch` brings them", file=sys.stderr)
+                print(
+                    f"figure {name}: the embedded clip stands in for {', '.join(press.missing)}; `brace clips fetch` brings them",
+                    file=sys.stderr,
+                )
             say(f"wrote {path}")

@@ -1,7 +1,8 @@
 """Figures of the sources, drawn from the running system; `brace figure NAME -o FILE`.
 
-To add one: copy the module of a neighbour, change what it draws, and give it a row in FIGURES. A figure is a module with
-one function, `draw(press) -> Sheet`; what figures share is in `stills` (photographs), `meeting` (poses) and `sheet` (paper).
+To add one: copy the module of a neighbour, change what it draws, and give it a row in FIGURES. A figure is a module
+with one function, `draw(press) -> Sheet`; what figures share is in `stills` (photographs), `meeting` (poses), `take`
+(runs) and `sheet` (paper).
 """
 
 from __future__ import annotations

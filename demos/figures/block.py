@@ -33,7 +33,7 @@ def draw(press: Press) -> Sheet:
     for palm in palms:
         draw.point(palm, 0.022, DARK)
     ghost = posed(m.body, m.clip, CLIP_BLUE, 0.45)
-    still = press.layers([Scene([ghost]), Scene([figure], draw=draw)], LOOK, 330, ends)
+    still = press.layers([Scene([ghost]), Scene([figure], draw=draw)], LOOK, 290, ends)
     reach = reach_m(controls[REACH_LEFT], b.reach_far_m, b.reach_near_m, arm_m, b.arm_share)
     inputs = [
         ("size", number(SIZE)),
@@ -46,12 +46,18 @@ def draw(press: Press) -> Sheet:
     ]
     positions, orientations = joints_of(m.body, m.found.rules)
     outputs = [("", "left, right")]
-    outputs.append(("palm from shoulder", _both([np.linalg.norm(palms[s] - positions[SHOULDERS[s]]) for s in range(2)], " m")))
+    outputs.append(
+        ("palm from shoulder", _both([np.linalg.norm(palms[s] - positions[SHOULDERS[s]]) for s in range(2)], " m"))
+    )
     outputs.append(("palm before target", _both([(target - palms[s]) @ tangent for s in range(2)], " m")))
-    outputs.append(("swivel reached", _both([np.degrees(arm_swivel(positions, orientations, s)) for s in range(2)], "°", 0)))
+    outputs.append(
+        ("swivel reached", _both([np.degrees(arm_swivel(positions, orientations, s)) for s in range(2)], "°", 0))
+    )
     sheet, x, y = panel(press.scale, "block", inputs, outputs, still)
     tail = np.add(still.at(ends[0]), (x, y))
-    sheet.text(tail[0] + 4, tail[1] - 10, "line of approach", 13, align="right", valign="bottom", italic=True, halo=True)
+    sheet.text(
+        tail[0] + 4, tail[1] - 10, "line of approach", 13, align="right", valign="bottom", italic=True, halo=True
+    )
     return sheet
 
 

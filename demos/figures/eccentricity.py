@@ -35,10 +35,27 @@ def draw(press: Press) -> Sheet:
         tip = still.at(end)
         sheet.arrow(start, tip, "ink", 2.2, 13)
         middle = np.add(start, 0.66 * np.subtract(tip, start))
-        sheet.text(middle[0] + (-22 if name == "T" else 0), middle[1] + (-18 if name == "T" else 26), f"$\\mathbf{{{name}}}$", 24, align="center", valign="center", halo=True)
+        sheet.text(
+            middle[0] + (-22 if name == "T" else 0),
+            middle[1] + (-18 if name == "T" else 26),
+            f"$\\mathbf{{{name}}}$",
+            24,
+            align="center",
+            valign="center",
+            halo=True,
+        )
     angles = np.linspace(0.0, turn, 40)
-    sheet.line(still.many(head + ARC_M * np.column_stack([np.cos(angles), np.sin(angles), 0 * angles])).tolist(), ACCENT, 2.2)
+    sheet.line(
+        still.many(head + ARC_M * np.column_stack([np.cos(angles), np.sin(angles), 0 * angles])).tolist(), ACCENT, 2.2
+    )
     x, y = still.at(head + 1.12 * ARC_M * np.array([math.cos(turn / 2), math.sin(turn / 2), 0.0]))
     sheet.text(x, y, f"$\\theta = {number(AZIMUTH_DEG, 0)}°$", 21, ACCENT, valign="center", halo=True)
-    sheet.text(12, sheet.height - 14, "facing $\\mathbf{F}$, direction to the threat $\\mathbf{T}$, eccentricity $\\theta$", BODY, "faint", valign="bottom")
+    sheet.text(
+        12,
+        sheet.height - 14,
+        "facing $\\mathbf{F}$, direction to the threat $\\mathbf{T}$, eccentricity $\\theta$",
+        BODY,
+        "faint",
+        valign="bottom",
+    )
     return sheet

@@ -6,62 +6,97 @@ from typing import Any
 
 import numpy as np
 
+from behaviours.components import Phase
 from demos.figures.press import Press
 from demos.figures.sheet import BODY, SMALL, Sheet, number
-from demos.figures.stills import Look
+from demos.figures.stills import Look, Strip, packed
 from demos.figures.take import LEGEND, Take, take
+from engine.body.kinematics import joints_of
+from engine.body.skeleton import PELVIS
+from engine.render.scene import Scene
 
 LOOK = Look(-62.0, 9.0)
 PITCH_M = 1.12
-PICTURES = 10
-HEAD, BAND = 26, 24  # over and under each strip
+PICTURES, PICTURES_DOWN = 10, 8  # somebody who lies takes more of the strip
+HEAD, BAND = 28, 26  # units over and under each strip
+NEAR_M = 1.3  # balls farther off are left out
 MILD = {"azimuth_deg": 25.0, "elevation_deg": 10.0, "speed_mps": 26.0, "size": 0.5, "perceived_s": 0.5}
-EXTREME = {**MILD, "azimuth_deg": 10.0, "speed_mps": 29.0, "size": 1.0, "size_means": "both", "mass_kg": 6.0}
-ROWS: tuple[tuple[str, str, dict[str, Any]], ...] = (
-    ("the same motion", "same", MILD),
-    ("a new motion, mild blow", "new", MILD),
-    ("a new motion, extreme blow", "new", EXTREME),
-)
+EXTREME = {**MILD, "azimuth_deg": 0.0, "speed_mps": 29.0, "size": 1.0, "size_means": "radius", "mass_kg": 10.0}
+KNOCK_DOWN = {**EXTREME, "target": "pelvis"}
+GET_UPS = ("getup_faceup", "getup_facedown")
 
 
 def draw(press: Press) -> Sheet:
-    runs = [take(press, scenario(recover, threat)) for _, recover, threat in ROWS]
-    strips, chosen = [], []
-    for run in runs:
-        ticks = moments(run)
-        scenes = [run.scene(tick, run.frames[tick].pose.root_m) for tick in ticks]
-        for scene in scenes:
-            scene.balls = [ball for ball in scene.balls if np.hypot(*np.asarray(ball.position_m)[:2]) < 1.0]
-        chosen.append(ticks)
-        strips.append(press.strip(scenes, LOOK, 1000, PITCH_M))
+    # whoever is knocked down needs a motion to get up by
+    extreme = KNOCK_DOWN if press.has(*GET_UPS) else EXTREME
+    rows = (
+        ("the same motion", take(press, scenario("same", MILD))),
+        ("a new motion, mild blow", take(press, scenario("new", MILD))),
+        (
+            f"a new motion, extreme blow ({number(EXTREME['mass_kg'], 0)} kg)",
+            take(press, scenario("new", extreme, 9.0)),
+        ),
+    )
+    chosen = [moments(run) for _, run in rows]
+    strips = [_strip(press, run, ticks) for (_, run), ticks in zip(rows, chosen, strict=True)]
     sheet = Sheet(sum(strip.size[1] + HEAD + BAND for strip in strips) + 34, press.scale)
     y = 0.0
-    for (name, _, _), run, ticks, strip in zip(ROWS, runs, chosen, strips, strict=True):
+    for (name, run), ticks, strip in zip(rows, chosen, strips, strict=True):
         y += HEAD
+        sheet.text(8, y - HEAD + 5, f"{name}: {goes_on_with(run)}", BODY + 1, italic=True)
         sheet.picture(strip, 0, y)
-        sheet.text(8, y - HEAD + 4, f"{name}{_returned(run)}", BODY + 1, italic=True)
         for k, tick in enumerate(ticks):
-            seconds = run.frames[tick].time_s - run.frames[run.contact].time_s
             x, _ = strip.at(k, (0.0, 0.0, 0.0))
+            seconds = run.frames[tick].time_s - run.frames[run.contact].time_s
             sheet.text(x, y + strip.size[1] + 2, f"{number(seconds)} s", SMALL, "faint", "center")
         y += strip.size[1] + BAND
     sheet.legend(8, sheet.height - 14, LEGEND)
+    sheet.text(992, sheet.height - 14, "time from contact", SMALL, "faint", "right", "center", italic=True)
     return sheet
 
 
-def scenario(recover: str, threat: dict[str, Any]) -> dict[str, Any]:
+def scenario(recover: str, threat: dict[str, Any], duration_s: float = 4.0) -> dict[str, Any]:
     """A walker who is met by such a threat."""
     character = {"clip": "walk", "start_s": 0.5, "startle": False, "recover": recover}
-    return {"duration_s": 5.0, "character": [character], "threat": [threat]}
+    return {"duration_s": duration_s, "character": [character], "threat": [threat]}
 
 
 def moments(run: Take) -> list[int]:
-    """From just before perception until the new motion is under way, the blow among them."""
-    first, reached = run.perceived - 1, run.contact - 1
-    playing = [t for t in range(run.contact, len(run.frames)) if run.frames[t].phase == 0]
-    over = min(playing[0] + 24 if playing else len(run.frames) - 1, len(run.frames) - 1)
-    return [first, (first + reached) // 2, reached] + [round(t) for t in np.linspace(run.contact + 8, over, PICTURES - 3)]
+    """Before perception, on the way, the pose as it is reached; then, by equal amounts of motion, until it goes on."""
+    reached, first = run.contact - 1, run.perceived - 1
+    down = any(frame.phase == Phase.DOWN for frame in run.frames)
+    playing = [t for t in range(run.contact, len(run.frames)) if run.frames[t].phase == Phase.PLAY]
+    over = len(run.frames) - 1
+    if playing:
+        stays = next((t for t in range(playing[0], over) if run.frames[t].phase != Phase.PLAY), over)
+        over = stays if down else min(playing[0] + 24, over)
+    after = _evenly_moving(run, run.contact + 8, over, (PICTURES_DOWN if down else PICTURES) - 3)
+    return [first, (first + reached) // 2, reached, *after]
 
 
-def _returned(run: Take) -> str:
-    return f": {run.clip_name}"
+def _evenly_moving(run: Take, start: int, end: int, count: int) -> list[int]:
+    """Ticks between which the joints, seen from over the pelvis, go equally far."""
+    joints = np.array([joints_of(run.body, frame.pose)[0] for frame in run.frames[start : end + 1]])
+    joints[:, :, :2] -= joints[:, PELVIS : PELVIS + 1, :2].copy()
+    steps = np.linalg.norm(np.diff(joints, axis=0), axis=-1).mean(axis=-1)
+    gone = np.concatenate([[0.0], np.cumsum(steps)])
+    return [start + int(np.searchsorted(gone, share * gone[-1])) for share in np.linspace(0.0, 1.0, count)]
+
+
+def _strip(press: Press, run: Take, ticks: list[int]) -> Strip:
+    scenes = [_scene(run, tick) for tick in ticks]
+    return press.strip(scenes, LOOK, 1000, packed(scenes, LOOK, PITCH_M))
+
+
+def _scene(run: Take, tick: int) -> Scene:
+    """The body over the origin, whether it stands or lies."""
+    positions, _ = joints_of(run.body, run.frames[tick].pose)
+    scene = run.scene(tick, 0.5 * (positions.min(axis=0) + positions.max(axis=0)))
+    scene.balls = [ball for ball in scene.balls if np.hypot(*np.asarray(ball.position_m)[:2]) < NEAR_M]
+    return scene
+
+
+def goes_on_with(run: Take) -> str:
+    """The motion that is played after the blow."""
+    after = (frame.clip for frame in run.frames[run.contact :] if frame.phase == Phase.PLAY)
+    return next(after, "stays down")

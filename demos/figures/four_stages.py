@@ -34,7 +34,9 @@ def draw(press: Press) -> Sheet:
         margin = margin_m(balance.support_m, balance.com_m[:2])
         where = f"COM {number(abs(100 * margin), 1)} cm {'inside' if margin >= 0 else 'outside'}"
         y = TOP + strip.size[1] + 6
-        sheet.circle((x - 0.5 * sheet.width_of(word) - 14, y + 0.62 * BODY), 5.5, fill=scene.figures[0].colour, edge="none")
+        sheet.circle(
+            (x - 0.5 * sheet.width_of(word) - 14, y + 0.62 * BODY), 5.5, fill=scene.figures[0].colour, edge="none"
+        )
         sheet.text(x, y, word, BODY, align="center")
         sheet.text(x, y + 24, where if np.isfinite(margin) else "no foot planted", SMALL, "faint", "center")
     return sheet
@@ -52,7 +54,9 @@ def stages(run: Take, press: Press) -> list[Scene]:
         _stage(run, run.sustained, about, frame.planted, SUSTAINED_ORANGE),
         _stage(run, struck.pose, about, frame.planted, SIMULATED_RED),
     ]
-    scenes[3].balls = [Ball(ball.position_m - np.array([*about, 0.0]), ball.radius_m, ball.orientation) for ball in struck.balls]
+    scenes[3].balls = [
+        Ball(ball.position_m - np.array([*about, 0.0]), ball.radius_m, ball.orientation) for ball in struck.balls
+    ]
     return scenes
 
 

@@ -70,7 +70,9 @@ def _tree(sheet: Sheet) -> None:
         fill = HINGE_FILL if name in HINGES else JOINT_FILL
         sheet.box(x - BOX[0] / 2, y - BOX[1] / 2, *BOX, fill, "faint" if name != "pelvis" else "ink", 8, layer=3)
         sheet.text(x, y - 0.5, name.replace("_", " "), 14.5, align="center", valign="center", bold=name == "pelvis")
-    sheet.legend(22, sheet.height - 18, [(HINGE_FILL, "hinge"), (JOINT_FILL, "three axes, within anatomical limits")], 13.5)
+    sheet.legend(
+        22, sheet.height - 18, [(HINGE_FILL, "hinge"), (JOINT_FILL, "three axes, within anatomical limits")], 13.5
+    )
 
 
 def _middle(name: str) -> tuple[float, float]:

@@ -2,29 +2,28 @@
 
 from __future__ import annotations
 
-import math
+from dataclasses import replace
 from typing import NamedTuple
 
 import numpy as np
 
-from behaviours.approach import Approach, coming_from, plan_approach
-from behaviours.perceived import PerceivedThreat, aim_of, target_centre
+from behaviours.approach import Approach
+from behaviours.perceived import PerceivedThreat
 from behaviours.placing import placed
-from behaviours.prepare import aim_point, prepare
-from behaviours.protection import perceive
+from behaviours.pose_report import PoseCase, pose_case
 from behaviours.settings import Settings
-from behaviours.sustained import Protection, protect
+from behaviours.sustained import Protection
 from behaviours.threats import Make, make_threat
-from behaviours.timing import TICK_S, time_to_contact_s, whole_ticks
+from behaviours.timing import TICK_S
 from engine.body.kinematics import com_of, joints_of
-from engine.body.skeleton import PELVIS, Body, Pose
+from engine.body.skeleton import PELVIS, WRISTS, Body, Pose
 from engine.body.support import polygon_of
-from engine.clips.clip import Clip
+from engine.clips.clip import Clip, Loop
 from engine.clips.playback import planted_at, sample
-from engine.maths import quaternion, vector
+from engine.maths import quaternion
 from engine.render.scene import Balance, Ball, Colour, Figure
 
-AIM_PASSES = 3  # the aim depends on the lean, the lean on the travel, that on the aim
+AHEAD_S, LANDING_S = 0.25, 1.5  # how much of the clip a pose may need: its look-ahead, or the way to the next landing
 
 
 class Meeting(NamedTuple):
@@ -32,7 +31,6 @@ class Meeting(NamedTuple):
 
     body: Body
     clip: Pose  # at perception
-    planted: np.ndarray  # (2,)
     make: Make
     way: Approach
     threat: PerceivedThreat
@@ -40,29 +38,36 @@ class Meeting(NamedTuple):
 
 
 def meet(
-    clip: Clip, time_s: float, azimuth_deg: float = 0.0, elevation_deg: float = 10.0, speed_mps: float = 26.0,
-    size: float = 0.5, target: str = "head", size_means: str = "rule", settings: Settings | None = None,
-) -> Meeting:  # fmt: skip
+    clip: Clip,
+    time_s: float,
+    azimuth_deg: float = 0.0,
+    elevation_deg: float = 10.0,
+    speed_mps: float = 26.0,
+    size: float = 0.5,
+    target: str = "head",
+    size_means: str = "rule",
+) -> Meeting:
     """What a character at that time of a clip does about a scripted volleyball."""
-    settings = settings or Settings()
-    body, make = clip.body, make_threat("volleyball", speed_mps, size, size_means=size_means)
-    ttc_s = whole_ticks(time_to_contact_s(make.speed_norm, math.cos(math.radians(azimuth_deg)), settings.timing)) * TICK_S
-    now = sample(clip, time_s)
-    turn = -float(quaternion.heading(now.rotations[PELVIS]))
-    about = now.root_m[:2].copy()
-    now, ahead = (placed(pose, (-about[0], -about[1]), turn, about) for pose in (now, sample(clip, time_s + settings.timing.sustained_ahead_s)))
-    planted = planted_at(clip, time_s)
-    joint, offset = aim_of(body, target)
-    aim = target_centre(joint, offset, *joints_of(body, now))
-    for _ in range(AIM_PASSES):
-        way = plan_approach(
-            aim, 0.0, math.radians(azimuth_deg), math.radians(elevation_deg), speed_mps, ttc_s, radius_m=make.radius_m
-        )
-        travel = vector.unit(vector.subtract(way.contact_m, way.start_m), (-1.0, 0.0, 0.0))
-        tangent = vector.unit(way.contact_mps, travel)
-        threat = perceive(body, now, target, aim, tangent, travel, make.speed_norm, make.size_norm, make.radius_m)
-        aim = aim_point(prepare(body, now, ahead, planted, threat, settings))
-    return Meeting(body, now, planted, make, way, threat, protect(body, now, ahead, planted, threat, settings))
+    case = PoseCase(0.0, azimuth_deg, elevation_deg, speed_mps, size, target, size_means=size_means)
+    got = pose_case(over_origin(clip, time_s), case, Settings())
+    make = make_threat("volleyball", speed_mps, size, size_means=size_means)
+    return Meeting(got.body, got.clip, make, got.approach, got.threat, got.protection)
+
+
+def over_origin(clip: Clip, time_s: float) -> Clip:
+    """The next moments of a clip, tick by tick, moved so that they begin over the origin facing +X."""
+    seconds = AHEAD_S if planted_at(clip, time_s).any() else LANDING_S
+    times = time_s + TICK_S * np.arange(1 + round(seconds / TICK_S))
+    first = sample(clip, time_s)
+    turn, about = -float(quaternion.heading(first.rotations[PELVIS])), first.root_m[:2].copy()
+    poses = [placed(sample(clip, float(t)), -about, turn, about) for t in times]
+    return replace(
+        clip,
+        fps=1.0 / TICK_S,
+        pose=Pose(np.array([pose.root_m for pose in poses]), np.array([pose.rotations for pose in poses])),
+        planted=np.array([planted_at(clip, float(t)) for t in times]),
+        loop=Loop(),
+    )
 
 
 def posed(body: Body, pose: Pose, colour: Colour, alpha: float = 1.0) -> Figure:
@@ -85,10 +90,7 @@ def arriving(meeting: Meeting, before_m: float = 0.0) -> Ball:
 
 def palms_of(body: Body, pose: Pose) -> np.ndarray:
     """(2, 3) palm centres, left and right."""
-    from engine.body.skeleton import WRISTS
-
     positions, orientations = joints_of(body, pose)
-    return np.array([np.add(positions[w], quaternion.rotate(orientations[w], body.palm_m[side])) for side, w in enumerate(WRISTS)])
-
-
-__all__ = ["Meeting", "arriving", "balance_of", "coming_from", "meet", "palms_of", "posed"]
+    return np.array(
+        [np.add(positions[w], quaternion.rotate(orientations[w], body.palm_m[side])) for side, w in enumerate(WRISTS)]
+    )

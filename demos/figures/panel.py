@@ -21,7 +21,9 @@ ROW, HEAD_ROW = 25.0, 34.0
 Rows = Sequence[tuple[str, str]]
 
 
-def panel(scale: float, rule: str, inputs: Rows, outputs: Rows, still: Still, legend: bool = True) -> tuple[Sheet, float, float]:
+def panel(
+    scale: float, rule: str, inputs: Rows, outputs: Rows, still: Still, legend: bool = True
+) -> tuple[Sheet, float, float]:
     """The sheet, and where its still was put, for what is to be drawn on it."""
     height = max(still.size[1] + 60, 2 * HEAD_ROW + ROW * max(len(inputs), len(outputs)) + 40)
     sheet = Sheet(height, scale)

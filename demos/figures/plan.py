@@ -13,8 +13,16 @@ from engine.render.scene import RULES_YELLOW, SUSTAINED_ORANGE
 GROUND, SOLE, RADIUS = "#f2f4f7", "#dfe3e9", 9.0
 
 
-def draw_plan(sheet: Sheet, meeting: Meeting, before_m, after_m, middle: tuple[float, float], unit: float) -> None:
-    """Draws it around a place of the sheet, so many units to a metre, the character facing up the page.
+def draw_plan(
+    sheet: Sheet,
+    meeting: Meeting,
+    before_m,
+    after_m,
+    middle: tuple[float, float],
+    unit: float,
+    facing_right: bool = False,
+) -> None:
+    """Draws it around a place of the sheet, so many units to a metre, the character facing up the page or to its right.
 
     before_m, after_m: the centre of mass as the yellow and the orange circle; the arrow is the threat's travel.
     """
@@ -23,7 +31,8 @@ def draw_plan(sheet: Sheet, meeting: Meeting, before_m, after_m, middle: tuple[f
 
     def at(points_m) -> np.ndarray:
         ahead, left = (np.reshape(points_m, (-1, 2)) - about).T
-        return np.column_stack([middle[0] - unit * left, middle[1] - unit * ahead])
+        right, up = (ahead, left) if facing_right else (-left, ahead)
+        return np.column_stack([middle[0] + unit * right, middle[1] - unit * up])
 
     sheet.polygon(at(found.support_m), GROUND, "faint", 1.6)
     for sole in sole_points(meeting.body, *joints_of(meeting.body, found.sustained)):

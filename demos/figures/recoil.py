@@ -25,7 +25,7 @@ def draw(press: Press) -> Sheet:
         retract_arm(rotations, side, control, greatest)
     after = posed(m.body, on_its_feet(m, rotations), RULES_YELLOW)
     before = posed(m.body, on_its_feet(m, task.start.rotations.copy()), CLIP_BLUE, 0.45)
-    still = press.layers([Scene([before]), Scene([after])], LOOK, 300, cut_m=0.82)
+    still = press.layers([Scene([before]), Scene([after])], LOOK, 270, cut_m=0.82)
     rows = (
         ("clavicle, raised", greatest.clavicle_rad[0]),
         ("clavicle, forward", greatest.clavicle_rad[1]),

@@ -1,7 +1,8 @@
 """The paper that a figure is printed on: pictures, letters and lines, all in one hand.
 
-Places are units from the top left corner, Y down, a full page being 1000 units wide; a letter of size 15 is small print.
-matplotlib draws, so formulas are TeX between dollars and a sheet may be saved as PDF or SVG, where letters and lines stay sharp.
+Places are units from the top left corner, Y down, a full page being 1000 units wide; letters of size 15 are small
+print. matplotlib draws, so formulas are TeX between dollars and a sheet may be saved as PDF or SVG, where letters and
+lines stay sharp.
 """
 
 from __future__ import annotations
@@ -116,7 +117,9 @@ class Sheet:
             zorder=layer, joinstyle="round",
         ))  # fmt: skip
 
-    def circle(self, centre: Place, radius: float, fill="none", edge="ink", line: float = 1.4, dashed=False, layer: float = 7):
+    def circle(
+        self, centre: Place, radius: float, fill="none", edge="ink", line: float = 1.4, dashed=False, layer: float = 7
+    ):
         from matplotlib.patches import Circle
 
         self.axes.add_patch(Circle(
@@ -124,7 +127,9 @@ class Sheet:
             linestyle=(0, (4, 3)) if dashed else "solid", zorder=layer,
         ))  # fmt: skip
 
-    def legend(self, x: float, y: float, entries: Sequence[tuple[Any, str]], size: float = BODY, gap: float = 26.0) -> float:
+    def legend(
+        self, x: float, y: float, entries: Sequence[tuple[Any, str]], size: float = BODY, gap: float = 26.0
+    ) -> float:
         """Swatches with their words in one row from x on, its middle at y; returns where it ends."""
         for colour, words in entries:
             self.circle((x + 0.38 * size, y), 0.38 * size, fill=colour, edge="none")

@@ -1,4 +1,4 @@
-"""Fig. 3.9: rules and sustained pose; left in balance from the start, so it only braces, right out of it, so it does both."""
+"""Fig. 3.9: rules and sustained pose; left in balance from the start, so it only braces; right out of it, so both."""
 
 from __future__ import annotations
 
@@ -15,8 +15,8 @@ WANTED = {
     "in balance: braced": lambda t: t.before_m > 0.02 and t.after_m > 0.01 and _plain(t),
     "out of balance: balanced and braced": lambda t: t.before_m < -0.01 and t.after_m > 0.015 and _plain(t),
 }
-WIDTH, GAP, BAND, PLAN = 420, 40, 92, 150
-UNIT, PLAN_UNIT = 175.0, 200.0  # units for a metre
+WIDTH, GAP, BAND, PLAN = 430, 20, 92, 130
+UNIT, PLAN_UNIT = 200.0, 230.0  # units for a metre
 ELEVATION_DEG = 20.0
 
 
@@ -38,7 +38,9 @@ def draw(press: Press) -> Sheet:
             continue
         sheet.picture(stills[name], middle - 0.5 * stills[name].size[0], height - stills[name].size[1])
         m = found[name].meeting
-        draw_plan(sheet, m, m.found.com_rules_m, m.found.com_m, (middle, height + 0.5 * PLAN), PLAN_UNIT)
+        draw_plan(
+            sheet, m, m.found.com_rules_m, m.found.com_m, (middle, height + 0.5 * PLAN), PLAN_UNIT, facing_right=True
+        )
         sheet.text(middle, height + PLAN + 30, _margins(found[name]), SMALL, "faint", "center")
     sheet.legend(10, sheet.height - 14, [(RULES_YELLOW, "rules alone"), (SUSTAINED_ORANGE, "sustained pose")])
     return sheet
@@ -50,7 +52,9 @@ def _still(press: Press, tried: Tried):
     scenes = []
     for pose, colour in ((found.rules, RULES_YELLOW), (found.sustained, SUSTAINED_ORANGE)):
         here = Pose(pose.root_m - about, pose.rotations)
-        scenes.append(Scene([posed(m.body, here, colour)], balances=[balance_of(m.body, here, found.feet.held, colour)]))
+        scenes.append(
+            Scene([posed(m.body, here, colour)], balances=[balance_of(m.body, here, found.feet.held, colour)])
+        )
     # from where the arms do not hide the body
     side = -1.0 if tried.azimuth_deg > 0 else 1.0
     look = Look(side * 62.0, ELEVATION_DEG)
@@ -59,5 +63,7 @@ def _still(press: Press, tried: Tried):
 
 
 def _margins(tried: Tried) -> str:
-    words = [f"{number(100 * abs(m), 1)} cm {'inside' if m >= 0 else 'outside'}" for m in (tried.before_m, tried.after_m)]
+    words = [
+        f"{number(100 * abs(m), 1)} cm {'inside' if m >= 0 else 'outside'}" for m in (tried.before_m, tried.after_m)
+    ]
     return f"COM from the edge: {words[0]}, then {words[1]}"

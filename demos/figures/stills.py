@@ -1,10 +1,11 @@
-"""Stills of the running system for figures: the real renderer on white paper, through a long lens that keeps sizes alike."""
+"""Stills of the running system for figures: the real renderer on white paper, through a lens that keeps sizes alike."""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from itertools import pairwise
 from typing import NamedTuple
 
 import numpy as np
@@ -60,7 +61,7 @@ class Strip(NamedTuple):
 
 @dataclass(frozen=True)
 class Look:
-    """Where the photographer stands about a character that faces +X: azimuth 0 ahead, 90 on its left; above the horizon."""
+    """Where the photographer stands about a character that faces +X: azimuth 0 ahead, 90 on its left; elevation."""
 
     azimuth_deg: float = -50.0
     elevation_deg: float = 9.0
@@ -89,7 +90,9 @@ def photograph(
 
 def _feathered(pixels: np.ndarray, edge_px: int) -> np.ndarray:
     """Faint shadows end softly where the still ends."""
-    ramps = [np.clip((0.5 + np.minimum(np.arange(n), np.arange(n)[::-1])) / max(edge_px, 1), 0, 1) for n in pixels.shape[:2]]
+    ramps = [
+        np.clip((0.5 + np.minimum(np.arange(n), np.arange(n)[::-1])) / max(edge_px, 1), 0, 1) for n in pixels.shape[:2]
+    ]
     strength = (ramps[0][:, None] * ramps[1][None, :])[..., None]
     return (255.5 - (255.0 - pixels) * strength).astype(np.uint8)
 
@@ -129,21 +132,33 @@ def spans_m(look: Look, points_m: np.ndarray) -> Place:
 
 
 def film(
-    renderer: Renderer, scale: float, scenes: Sequence[Scene], look: Look, width: float, pitch_m: float, more_m=(),
-    shadows: bool = True,
+    renderer: Renderer, scale: float, scenes: Sequence[Scene], look: Look, width: float,
+    pitch_m: float | Sequence[float], more_m=(), shadows: bool = True,
 ) -> Strip:  # fmt: skip
-    """Scenes around the origin, all seen alike, set out left to right at a pitch, in a strip of that width in units."""
+    """Scenes around the origin, all seen alike, set out left to right in a strip of that width in units.
+
+    pitch_m: from one origin to the next, one number or N - 1 of them (see `packed`).
+    """
     points = seen_points(scenes, more_m, shadows)
     span_m = 1.04 * spans_m(look, points)[0]
-    unit = width / (span_m + pitch_m * (len(scenes) - 1))
+    steps = np.broadcast_to(np.asarray(pitch_m, float), len(scenes) - 1)
+    along = np.concatenate([[0.0], np.cumsum(steps)])
+    unit = width / (span_m + along[-1])
     camera, each = framed(look, points, span_m * unit)
-    left = [k * pitch_m * unit for k in range(len(scenes))]
+    left = [float(unit * x) for x in along]
     strip = np.full((max(16, round(each[1] * scale)), round(width * scale) + 2, 3), 255, np.uint8)
     # shadows fall to the left: from right to left, each body is laid over its neighbour's shadow
     for scene, x in reversed(list(zip(scenes, left, strict=True))):
         lay_over(strip, photograph(renderer, scene, camera, each, scale).pixels, round(x * scale))
     size = (strip.shape[1] / scale, strip.shape[0] / scale)
     return Strip(strip, size, left, each, camera)
+
+
+def packed(scenes: Sequence[Scene], look: Look, least_m: float, gap_m: float = 0.12) -> list[float]:
+    """Pitches at which no body stands in its neighbour's place: at least so much, more where somebody lies."""
+    right, _, _ = look.camera.axes()
+    sides = [extent_points(Scene(scene.figures)) @ right for scene in scenes]
+    return [max(least_m, float(a.max() - b.min()) + gap_m) for a, b in pairwise(sides)]
 
 
 def lay_over(paper: np.ndarray, pixels: np.ndarray, x_px: int, join_shadows: bool = False) -> None:

@@ -45,4 +45,6 @@ def _brackets(sheet: Sheet, strip: Strip, middles: list[float], each: int, words
         first, last = middles[group] - reach, middles[group + each - 1] + reach
         if each > 1:
             sheet.line([(first, y), (last, y)], "hair")
-        sheet.text(0.5 * (first + last), y + 3, words[group // each % len(words)], BODY if each > 1 else 13, align="center")
+        sheet.text(
+            0.5 * (first + last), y + 3, words[group // each % len(words)], BODY if each > 1 else 13, align="center"
+        )

@@ -1,4 +1,4 @@
-"""Fig. 3.8: the elbow's swivel angle about shoulder - wrist, from the shoulder's down (dashed), for small and large threats."""
+"""Fig. 3.8: the elbow's swivel angle about shoulder - wrist, from the shoulder's down (dashed)."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from engine.maths import vector
 from engine.render.scene import RULES_YELLOW, Scene
 
 SIZES = (0.0, 1.0)
-WIDTH, BAND = 340, 40
+WIDTH, GAP, BAND = 330, 40, 40
 ASIDE_DEG = -34.0  # the photographer stands this far from the line shoulder - wrist, to tell the two apart
 ACCENT = "#b3261e"
 
@@ -25,11 +25,14 @@ ACCENT = "#b3261e"
 def draw(press: Press) -> Sheet:
     clip = press.clip("sway")
     meetings = [meet(clip, 0.5, 0.0, 8.0, 22.8, size) for size in SIZES]
-    stills = [press.layers([Scene([posed(m.body, m.found.rules, RULES_YELLOW)])], _along_arm(m), WIDTH, cut_m=0.95) for m in meetings]
+    stills = [
+        press.layers([Scene([posed(m.body, m.found.rules, RULES_YELLOW)])], _along_arm(m), WIDTH, cut_m=0.95)
+        for m in meetings
+    ]
     height = max(still.size[1] for still in stills)
-    sheet = Sheet(height + BAND, press.scale, 2 * WIDTH + 20)
+    sheet = Sheet(height + BAND, press.scale, 2 * (WIDTH + GAP))
     for k, (m, still, size) in enumerate(zip(meetings, stills, SIZES, strict=True)):
-        corner = (k * (WIDTH + 20), height - still.size[1])
+        corner = (k * (WIDTH + GAP) + 8, height - still.size[1])
         sheet.picture(still, *corner)
         _angle(sheet, still, corner, m)
         words = "small threat: reach out" if size == 0 else "large threat: stay small"
@@ -60,17 +63,19 @@ def _angle(sheet: Sheet, still, corner, m) -> None:
     angle = math.acos(float(np.clip(out @ zero, -1.0, 1.0)))
 
     def place(turn, far=1.0):
-        return np.add(still.many(centre + far * radius * (np.outer(np.cos(turn), zero) + np.outer(np.sin(turn), side))), corner)
+        return np.add(
+            still.many(centre + far * radius * (np.outer(np.cos(turn), zero) + np.outer(np.sin(turn), side))), corner
+        )
 
     sheet.line(place(np.linspace(0, 2 * math.pi, 80)).tolist(), "faint", 1.1)
     sheet.line(place(np.linspace(0, angle, 40)).tolist(), ACCENT, 2.6)
     middle = np.add(still.at(centre), corner)
     sheet.line([tuple(middle), tuple(place([0.0], 1.25)[0])], "ink", 1.6, dashed=True)
     sheet.line([tuple(middle), tuple(place([angle])[0])], ACCENT, 1.8)
-    for joint, name in ((shoulder, "shoulder"), (wrist, "wrist"), (elbow, "elbow")):
+    for joint, name, align in ((shoulder, "shoulder", "right"), (wrist, "wrist", "left"), (elbow, "elbow", "left")):
         x, y = np.add(still.at(joint), corner)
         sheet.circle((x, y), 4, fill="white", edge="ink", line=1.6)
-        sheet.text(x + 8, y - 3, name, SMALL, valign="bottom", halo=True)
+        sheet.text(x + (8 if align == "left" else -8), y - 3, name, SMALL, align=align, valign="bottom", halo=True)
     degrees = math.degrees(arm_swivel(positions, orientations, LEFT))
-    x, y = place([0.5 * angle], 1.35)[0]
+    x, y = place([0.5 * angle], 1.0 + 22.0 / max(np.hypot(*(place([angle])[0] - middle)), 1.0))[0]
     sheet.text(x, y, f"{number(degrees, 0)}°", 19, ACCENT, "center", "center", halo=True)

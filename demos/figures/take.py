@@ -43,6 +43,7 @@ class Frame(NamedTuple):
     pose: Pose
     planted: np.ndarray  # (2,)
     balls: list[Ball]
+    clip: str  # that is played, or was
 
 
 class Take(NamedTuple):
@@ -56,7 +57,6 @@ class Take(NamedTuple):
     rules: Pose
     sustained: Pose
     wanted_m: np.ndarray
-    clip_name: str  # what is played in the end
 
     def colour(self, tick: int) -> Colour:
         """The thesis's colour of what is shown: orange for the sustained pose, reached just before the touch."""
@@ -93,7 +93,7 @@ def take(press: Press, scenario: dict[str, Any]) -> Take:
         if contact is None and phase in (Phase.RESPOND, Phase.DOWN):
             contact = tick
     perceived = next((tick for tick, frame in enumerate(frames) if frame.phase != Phase.PLAY), 0)
-    return Take(body_of(world, 0), frames, perceived, contact, *(stages or _stages(world, 0)), clip_of(world, 0).name)
+    return Take(body_of(world, 0), frames, perceived, contact, *(stages or _stages(world, 0)))
 
 
 def _frame(world, tick: int) -> Frame:
@@ -105,6 +105,7 @@ def _frame(world, tick: int) -> Frame:
         Pose(p.root_m[0].copy(), p.rotations[0].copy()),
         world[Feet].planted[0].copy(),
         balls,
+        clip_of(world, 0).name,
     )
 
 

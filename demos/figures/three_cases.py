@@ -1,4 +1,4 @@
-"""Fig. 3.10: the three cases of balancing and bracing, real ones: seen from above, the centre of mass as it is and as wanted."""
+"""Fig. 3.10: the three cases of balancing and bracing, real ones: the centre of mass as it is and as it is wanted."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from demos.figures.meeting import balance_of, posed
 from demos.figures.plan import draw_plan
 from demos.figures.press import Press
 from demos.figures.search_cases import Tried, first_of_each
-from demos.figures.sheet import BODY, SMALL, TITLE, Sheet
+from demos.figures.sheet import SMALL, TITLE, Sheet
 from demos.figures.stills import Look
 from engine.body.skeleton import Pose
 from engine.render.scene import RULES_YELLOW, SUSTAINED_ORANGE, Scene

@@ -38,7 +38,9 @@ def clock_of(settings: Settings) -> Clock:
     response = contact + settings.response.duration_s
     part_one = response + r.part_one_s
     returning_s = r.part_two_s / (1.0 - r.part_one_share)
-    return Clock(t.startle_s, contact, response, part_one, part_one + r.part_two_s, part_one - r.part_one_share * returning_s)
+    return Clock(
+        t.startle_s, contact, response, part_one, part_one + r.part_two_s, part_one - r.part_one_share * returning_s
+    )
 
 
 def draw(press: Press) -> Sheet:
@@ -94,17 +96,19 @@ def _curves(sheet: Sheet, clock: Clock, settings: Settings, x) -> None:
 
 def _poses(sheet: Sheet, clock: Clock, settings: Settings, x) -> None:
     """Dashed: where the computed poses stand, and which pose of the clip each was made from."""
-    for when, top, label, ahead_s in (
-        (clock.startle, STARTLE_Y, "startle", settings.timing.startle_ahead_s),
-        (clock.contact, SUSTAINED_Y, "sustained", settings.timing.sustained_ahead_s),
-        (clock.part_two, CLIP_Y, "return", settings.timing.sustained_ahead_s),
+    for when, label, ahead_s in (
+        (clock.startle, "startle", settings.timing.startle_ahead_s),
+        (clock.contact, "sustained", settings.timing.sustained_ahead_s),
+        (clock.part_two, "return", settings.timing.sustained_ahead_s),
     ):
         sheet.line([(float(x(when)), 34.0), (float(x(when)), AXIS_Y)], "faint", 1.2, dashed=True)
         sheet.text(float(x(when)), 10, f"$P_\\mathrm{{{label}}}$", BODY + 1, align="center")
         sheet.text(float(x(when)) + 7, 34, f"clip + {number(1000 * ahead_s, 0)} ms", SMALL - 1.5, "faint", halo=True)
     sheet.line([(float(x(0.0)), 34.0), (float(x(0.0)), AXIS_Y)], "faint", 1.2, dashed=True)
     sheet.text(float(x(0.0)), 12, "perception", SMALL + 1, "ink", "center", italic=True)
-    sheet.text(float(x(clock.contact)) - 8, SUSTAINED_Y + 16, "contact", SMALL + 1, "ink", "right", italic=True, halo=True)
+    sheet.text(
+        float(x(clock.contact)) - 8, SUSTAINED_Y + 16, "contact", SMALL + 1, "ink", "right", italic=True, halo=True
+    )
 
 
 def _regions(sheet: Sheet, clock: Clock, x) -> None:

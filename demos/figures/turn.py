@@ -30,7 +30,7 @@ def draw(press: Press) -> Sheet:
     before = posed(m.body, on_its_feet(m, task.start.rotations.copy()), CLIP_BLUE, 0.45)
     head, travel = before.positions[HEAD] + (0.0, 0.0, 0.1), np.array(m.threat.direction)
     arrow = [head - 0.85 * travel, head - 0.25 * travel]
-    still = press.layers([Scene([before]), Scene([after])], LOOK, 300, arrow)
+    still = press.layers([Scene([before]), Scene([after])], LOOK, 270, arrow)
     inputs = [
         ("travel $\\vec{D}$", vector(travel)),
         ("size", number(SIZE)),
@@ -39,11 +39,16 @@ def draw(press: Press) -> Sheet:
         ("greatest Z, neck", degrees(maxima.neck_rad[2])),
     ]
     inputs += [
-        (f"{joint}, {number(100 * getattr(maxima, f'{joint}_share'), 0)} % of the rest", degrees(getattr(maxima, f"{joint}_rad")[2]))
+        (
+            f"{joint}, {number(100 * getattr(maxima, f'{joint}_share'), 0)} % of the rest",
+            degrees(getattr(maxima, f"{joint}_rad")[2]),
+        )
         for joint in REMAINS
     ]
     angles = turn_angles(wanted, control, maxima)
-    outputs = [("", "Z")] + [(JOINTS[joint], degrees(angle)) for joint, angle in zip(reversed(SPINE), reversed(angles), strict=True)]
+    outputs = [("", "Z")] + [
+        (JOINTS[joint], degrees(angle)) for joint, angle in zip(reversed(SPINE), reversed(angles), strict=True)
+    ]
     outputs.append(("all together", degrees(sum(angles))))
     sheet, x, y = panel(press.scale, "turn away", inputs, outputs, still)
     tail, tip = (np.add(still.at(point), (x, y)) for point in arrow)
