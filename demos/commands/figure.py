@@ -77,9 +77,9 @@ def _print_all(names: list[str], paths: list[Path], scale: float) -> None:
         for name, path in with_progress(zip(names, paths, strict=True), "drawing", len(names)):
             press = Press(renderer, scale)
             draw_figure(name, press).save(path)
-            if press.missing:
+            if missing := ", ".join(press.missing):
                 print(
-                    f"figure {name}: the embedded clip stands in for {', '.join(press.missing)}; `brace clips fetch` brings them",
+                    f"figure {name}: `sway` stands in for {missing}, which `brace clips fetch` brings",
                     file=sys.stderr,
                 )
             say(f"wrote {path}")

@@ -29,7 +29,7 @@ def draw(press: Press) -> Sheet:
     palms, figure = palms_of(m.body, m.found.rules), posed(m.body, m.found.rules, RULES_YELLOW)
     tangent, target = np.array(m.threat.tangent), np.array(m.threat.line_point_m)
     draw, ends = DebugDraw(), [target - 1.15 * tangent, target]
-    draw.arrow(*ends, DARK)
+    draw.arrow(ends[0], ends[1], DARK)
     for palm in palms:
         draw.point(palm, 0.022, DARK)
     ghost = posed(m.body, m.clip, CLIP_BLUE, 0.45)

@@ -20,8 +20,15 @@ PITCH_M = 1.12
 PICTURES, PICTURES_DOWN = 10, 8  # somebody who lies takes more of the strip
 HEAD, BAND = 28, 26  # units over and under each strip
 NEAR_M = 1.3  # balls farther off are left out
-MILD = {"azimuth_deg": 25.0, "elevation_deg": 10.0, "speed_mps": 26.0, "size": 0.5, "perceived_s": 0.5}
-EXTREME = {**MILD, "azimuth_deg": 0.0, "speed_mps": 29.0, "size": 1.0, "size_means": "radius", "mass_kg": 10.0}
+MILD: dict[str, Any] = {"azimuth_deg": 25.0, "elevation_deg": 10.0, "speed_mps": 26.0, "size": 0.5, "perceived_s": 0.5}
+EXTREME: dict[str, Any] = {
+    **MILD,
+    "azimuth_deg": 0.0,
+    "speed_mps": 29.0,
+    "size": 1.0,
+    "size_means": "radius",
+    "mass_kg": 10.0,
+}
 KNOCK_DOWN = {**EXTREME, "target": "pelvis"}
 GET_UPS = ("getup_faceup", "getup_facedown")
 

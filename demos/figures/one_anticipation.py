@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 
 from behaviours.timing import TICK_S
@@ -11,7 +13,7 @@ from demos.figures.stills import Look
 from demos.figures.take import LEGEND, Take, take
 from engine.render.scene import Scene
 
-SCENARIO = {
+SCENARIO: dict[str, Any] = {
     "duration_s": 2.6,
     "character": [{"clip": "walk", "start_s": 0.5, "startle": False}],
     "threat": [{"azimuth_deg": 30.0, "elevation_deg": 10.0, "speed_mps": 27.0, "size": 0.5, "perceived_s": 0.5}],

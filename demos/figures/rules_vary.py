@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 from demos.figures.meeting import meet, posed
 from demos.figures.press import Press
 from demos.figures.sheet import SMALL, TITLE, Sheet, number
@@ -11,7 +13,7 @@ from engine.render.scene import CLIP_BLUE, RULES_YELLOW, Scene
 LOOK = Look(-32.0, 9.0)
 PITCH_M = 1.42
 TIME_S = 0.95
-USUAL = {"azimuth_deg": 25.0, "size": 0.5, "speed_mps": 26.25}
+USUAL: dict[str, Any] = {"azimuth_deg": 25.0, "size": 0.5, "speed_mps": 26.25}
 ROWS = (
     ("position", "right to left", "azimuth_deg", (-70.0, -35.0, 0.0, 35.0, 70.0), 0, "°"),
     ("size", "small to large", "size", (0.0, 0.25, 0.5, 0.75, 1.0), 2, ""),
@@ -25,7 +27,7 @@ def draw(press: Press) -> Sheet:
     rows = [[meet(clip, TIME_S, **USUAL | {key: value}) for value in values] for _, _, key, values, _, _ in ROWS]
     strips = [press.strip([_scene(m) for m in row], LOOK, 1000 - LEFT, PITCH_M) for row in rows]
     sheet = Sheet(TOP + sum(strip.size[1] + ROW_GAP for strip in strips), press.scale)
-    y = TOP
+    y = float(TOP)
     for (word, way, _, values, digits, unit), row, strip in zip(ROWS, rows, strips, strict=True):
         sheet.picture(strip, LEFT, y)
         sheet.text(LEFT + 4, y - 26, f"{word}, {way}", TITLE, italic=True)

@@ -43,7 +43,7 @@ class Sheet:
         from matplotlib.backends.backend_agg import FigureCanvasAgg
         from matplotlib.figure import Figure
 
-        matplotlib.rcParams.update(STYLE)
+        matplotlib.rcParams.update(STYLE)  # type: ignore[arg-type]
         self.width, self.height, self.scale = width, height, scale
         size_in = (width / UNITS_PER_INCH, height / UNITS_PER_INCH)
         self.figure = Figure(figsize=size_in, dpi=UNITS_PER_INCH * scale, facecolor="white")

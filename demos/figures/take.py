@@ -14,6 +14,7 @@ from behaviours.timing import TICK_S
 from demos.figures.meeting import balance_of, posed
 from demos.figures.press import Press
 from engine.body.skeleton import Body, Pose
+from engine.core.errors import BadInput
 from engine.render.scene import (
     BLEND_GREY,
     CLIP_BLUE,
@@ -52,7 +53,7 @@ class Take(NamedTuple):
     body: Body
     frames: list[Frame]
     perceived: int  # tick at which the reaction begins
-    contact: int | None  # tick of the first touch
+    contact: int  # tick of the first touch
     clip: Pose  # the poses of the thesis at the last tick before the touch
     rules: Pose
     sustained: Pose
@@ -60,7 +61,7 @@ class Take(NamedTuple):
 
     def colour(self, tick: int) -> Colour:
         """The thesis's colour of what is shown: orange for the sustained pose, reached just before the touch."""
-        if self.contact is not None and tick == self.contact - 1:
+        if tick == self.contact - 1:
             return SUSTAINED_ORANGE
         return COLOURS.get(self.frames[tick].phase, BLEND_GREY)
 
@@ -80,10 +81,15 @@ class Take(NamedTuple):
 
 
 def take(press: Press, scenario: dict[str, Any]) -> Take:
-    """Runs a scenario given as plain data (see `behaviours.scenario`). Clips that are missing are stood in for."""
+    """Runs a scenario given as plain data (see `behaviours.scenario`). Clips that are missing are stood in for.
+
+    BadInput where nothing is touched: a filmstrip is told from the contact on.
+    """
     checked = check_scenario({"version": 1, **scenario}, "figure")
     simulation = Simulation(checked, lambda spec: press.clip(spec.clip))
-    world, frames, stages, contact = simulation.world, [], None, None
+    world = simulation.world
+    frames: list[Frame] = []
+    stages, contact = None, None
     for tick in range(simulation.ticks):
         simulation.step()
         frames.append(_frame(world, tick))
@@ -92,6 +98,8 @@ def take(press: Press, scenario: dict[str, Any]) -> Take:
             stages = _stages(world, tick)
         if contact is None and phase in (Phase.RESPOND, Phase.DOWN):
             contact = tick
+    if contact is None:
+        raise BadInput("figure", "the threat of its scenario touches nobody")
     perceived = next((tick for tick, frame in enumerate(frames) if frame.phase != Phase.PLAY), 0)
     return Take(body_of(world, 0), frames, perceived, contact, *(stages or _stages(world, 0)))
 
