@@ -14,7 +14,7 @@ from typing import NamedTuple
 import numpy as np
 from numba import njit
 
-from behaviours.clearing import clear_arms, depths_at, let_be, overrun_between, place_arms
+from behaviours.clearing import bring_arms, clear_arms, depths_at, let_be, overrun_between
 from behaviours.overlap import ARM_CAPSULES, PAIRS
 from behaviours.timing import ease
 from engine.body import limits
@@ -29,7 +29,8 @@ COM_GAIN = 1.12
 LEG_SOFT_M = 0.010  # a leg straightens over this length, instead of snapping straight
 LYING_LEG, STANDING_LEG = 0.2, 0.5  # hip over ankle in shares of the leg: it lies, or it may be standing
 LEG_SPARE_M = 0.0005  # and stays this much short of it, but where its own motion has it straighter
-ARC_SHARES = (0.0, 1e-3, 0.25, 0.5, 0.75, 1.0)  # the second: straight, but with the slerped arm's elbow
+# straight; straight, but with the slerped arm's elbow; ever more the slerped arm's way. Negative: the shoulder mixed by components
+ARC_SHARES = (0.0, 1e-3, -1e-3, 0.25, -0.25, 0.5, -0.5, 0.75, 1.0, -1.0)
 ARC_SAMPLES = 16
 ARC_STRIDE_M = 0.15  # an elbow that goes farther than this from one sample to the next turns over
 ARC_LIMIT_RAD = 0.005  # a line on which the shoulder goes this far beyond its limits, or
@@ -83,21 +84,23 @@ def primary_support(planted, ankles_m, com_m):
 
 
 @njit(cache=True)
-def mix_joint(joint, first, last, weight):
+def mix_joint(joint, first, last, weight, by_components):
     """A joint between two rotations: slerped; elbow, wrist and knee component by component.
 
-    Slerp would take an elbow sideways from one forearm twist to another, farther than any elbow goes.
+    Slerp would take an elbow sideways from one forearm twist to another, farther than any elbow goes. A shoulder too may be
+    better off so: from one twist to a far one slerp turns it the shorter way round, through twists that no shoulder has.
     """
-    if joint in ELBOWS or joint in WRISTS or joint in KNEES:
+    if by_components or joint in ELBOWS or joint in WRISTS or joint in KNEES:
         return limits.mix(first, last, weight)
     return quaternion.slerp(first, last, weight)
 
 
 @njit(cache=True)
-def slerp_from_support(body, start, end, weight, support, root_m, rotations, positions, orientations):
+def slerp_from_support(body, start, end, weight, support, arcs, root_m, rotations, positions, orientations):
     """First pass: every joint slerped, and the pelvis placed so that the support foot goes straight from end to end."""
     for j in range(JOINT_COUNT):
-        q = mix_joint(j, start.rotations[j], end.rotations[j], weight)
+        by_components = (j == SHOULDERS[0] and arcs[0] < 0.0) or (j == SHOULDERS[1] and arcs[1] < 0.0)
+        q = mix_joint(j, start.rotations[j], end.rotations[j], weight, by_components)
         rotations[j, 0], rotations[j, 1], rotations[j, 2], rotations[j, 3] = q
     root_m[:] = 0.0
     rotations[PELVIS, 0], rotations[PELVIS, 1], rotations[PELVIS, 2], rotations[PELVIS, 3] = quaternion.IDENTITY
@@ -226,24 +229,22 @@ def mix_angle(first_rad, last_rad, weight):
 
 @njit(cache=True)
 def arms_between(body, start, end, weight, arcs, rotations, positions, orientations):
-    """Where both wrists are to be, (2, 3), and their arms' swivels, (2,): on the way from end to end (thesis 4.3).
+    """Both arms on their way from end to end (thesis 4.3), in place. Returns where their wrists are to be, (2, 3).
 
-    The hand goes straight, the swivel angle is interpolated. With a share `arcs` (2,) above 0 the hand goes by that much on the way
-    that slerping the arm takes it, and the elbow is left where that has it. The arms come here slerped, and leave there.
+    The hand goes straight, the swivel angle is interpolated. With a share `arcs` (2,) that is not 0 the hand goes by that much on the way
+    that slerping the arm takes it, and the elbow is left where that has it. The arms come here slerped.
     """
-    targets, swivels = np.empty((2, 3)), np.empty(2)
+    targets = np.empty((2, 3))
     for side in range(2):
-        wrist, arc = WRISTS[side], arcs[side]
+        wrist, arc = WRISTS[side], abs(arcs[side])
         line = vector.mix(start.positions[wrist], end.positions[wrist], weight)
         first = arm_swivel(start.positions, start.orientations, side, CARRIED)
         last = arm_swivel(end.positions, end.orientations, side, CARRIED)
-        swivels[side] = mix_angle(first, last, weight) if arc == 0.0 else KEEP
+        swivel = mix_angle(first, last, weight) if arc == 0.0 else KEEP
         line = vector.mix(line, positions[wrist], arc)
         targets[side, 0], targets[side, 1], targets[side, 2] = line
-        apply_arm(body, rotations, positions, orientations, side, line, swivels[side], CARRIED)
-        if arc > 0.0:
-            swivels[side] = arm_swivel(positions, orientations, side, CARRIED)
-    return targets, swivels
+        apply_arm(body, rotations, positions, orientations, side, line, swivel, CARRIED)
+    return targets
 
 
 @njit(cache=True)
@@ -257,7 +258,7 @@ def knee_swivels_between(start, end, weight):
 @njit(cache=True)
 def blend_trunk_and_legs(body, start, end, weight, support, goals, arcs, root_m, rotations, positions, orientations):
     """Both passes but for the last word on the arms, which are left as slerped. In place."""
-    slerp_from_support(body, start, end, weight, support, root_m, rotations, positions, orientations)
+    slerp_from_support(body, start, end, weight, support, arcs, root_m, rotations, positions, orientations)
     swivels, lengths = knee_swivels_between(start, end, weight), leg_lengths_between(start, end, weight)
     hold_feet(body, goals, lengths, swivels, root_m, rotations, positions, orientations)
     slerped = rotations.copy()
@@ -280,13 +281,13 @@ def blend_into(body, capsules, start, end, weight, support, goals, arcs, root_m,
     orientations = np.empty((JOINT_COUNT, 4))
     blend_trunk_and_legs(body, start, end, weight, support, goals, arcs, root_m, rotations, positions, orientations)
     # the shoulders have moved: the arms once more, and where they now are in the way
-    targets, elbows = arms_between(body, start, end, weight, arcs, rotations, positions, orientations)
+    targets = arms_between(body, start, end, weight, arcs, rotations, positions, orientations)
     allowed = np.empty(len(start.depths_m))
     let_be(start.depths_m, end.depths_m, weight, allowed)
-    led = clear_arms(body, capsules, allowed, targets, elbows, rotations, positions, orientations)
+    led = clear_arms(body, capsules, allowed, targets, rotations, positions, orientations)
     # arms that go round take the COM along: once more
     move_com(body, start, end, weight, goals, root_m, rotations, positions, orientations)
-    place_arms(body, targets, elbows, rotations, positions, orientations)
+    bring_arms(body, targets, np.zeros(2), rotations, positions, orientations)
     return led
 
 

@@ -14,7 +14,7 @@ from numba import njit
 
 from behaviours.overlap import ARM_CAPSULES, PAIRS
 from engine.body.capsules import capsules_at
-from engine.body.limb_ik import CARRIED, apply_arm
+from engine.body.limb_ik import CARRIED, KEEP, apply_arm, arm_swivel
 from engine.body.limits import components
 from engine.body.skeleton import ELBOWS, SHOULDERS, WRISTS
 from engine.maths import vector
@@ -25,6 +25,7 @@ YIELD_M = 0.008  # and let each other at most this much nearer than that
 LEVER_M = 0.15  # an elbow that far off the line shoulder - wrist moves as readily as the wrist
 PUSHES = 12
 EAGERNESS = 0.8  # share of what is missing that one push makes good
+TURN_RAD = 0.3  # an elbow swings no farther than this in one push
 UNDECIDED = 1e-9
 
 
@@ -54,10 +55,17 @@ def yielding(excess_m):
 
 
 @njit(cache=True)
-def place_arms(body, targets_m, swivels, rotations, positions, orientations):
-    """Both wrists onto their targets (2, 3) with their swivels (2,), in place."""
+def bring_arms(body, targets_m, turns, rotations, positions, orientations):
+    """Both wrists onto their targets (2, 3) the shortest way, then the elbows about shoulder - wrist by turns (2,). In place.
+
+    A turn is counted from where the elbow is: any fixed direction to count from turns over somewhere, and arms that are
+    wrapped around a head are there.
+    """
     for side in range(2):
-        apply_arm(body, rotations, positions, orientations, side, targets_m[side], swivels[side], CARRIED)
+        apply_arm(body, rotations, positions, orientations, side, targets_m[side], KEEP, CARRIED)
+        if turns[side] != 0.0:
+            swivel = arm_swivel(positions, orientations, side, CARRIED) + turns[side]
+            apply_arm(body, rotations, positions, orientations, side, targets_m[side], swivel, CARRIED)
 
 
 @njit(cache=True)
@@ -77,10 +85,14 @@ def _pull(point_share, is_hand, travel, normal):
 
 
 @njit(cache=True)
-def push_arms(capsules, levels_m, positions, orientations, targets_m, swivels):
-    """One push: moves the wrists' targets (2, 3) and swivels (2,) so that no pair is deeper than its level (P,). In place."""
+def push_arms(capsules, levels_m, positions, orientations, targets_m, turns):
+    """One push: how to move the wrists' targets (2, 3) and turn the elbows (2,) so that no pair is deeper than its level (P,).
+
+    Writes both. Returns whether anything is to be done.
+    """
     ends = capsules_at(capsules, positions, orientations)
-    moves, turns, counts = np.zeros((2, 3)), np.zeros(2), np.zeros(2)
+    moves, counts = np.zeros((2, 3)), np.zeros(2)
+    turns[:] = 0.0
     travels = (elbow_travel(positions, 0), elbow_travel(positions, 1))
     for n in range(len(PAIRS)):
         a, b = PAIRS[n]
@@ -109,25 +121,25 @@ def push_arms(capsules, levels_m, positions, orientations, targets_m, swivels):
         share = 1.0 / math.sqrt(max(counts[side], 1.0))
         for k in range(3):
             targets_m[side, k] += share * moves[side, k]
-        swivels[side] += share * turns[side]
+        turns[side] = min(max(share * turns[side], -TURN_RAD), TURN_RAD)
     return counts[0] + counts[1] > 0.0
 
 
 @njit(cache=True)
-def clear_arms(body, capsules, allowed_m, targets_m, swivels, rotations, positions, orientations):
-    """Pushes both arms out of the body, in place, from where their targets (2, 3) and swivels (2,) have them.
+def clear_arms(body, capsules, allowed_m, targets_m, rotations, positions, orientations):
+    """Pushes both arms out of the body, in place, from their targets (2, 3).
 
     Moves the targets to where the wrists are led. Returns how far that is, metres: (left, right).
     """
     depths = np.empty(len(PAIRS))
     depths_at(capsules, positions, orientations, depths)
-    levels, led = np.empty(len(PAIRS)), targets_m.copy()
+    levels, led, turns = np.empty(len(PAIRS)), targets_m.copy(), np.zeros(2)
     for n in range(len(PAIRS)):
         levels[n] = allowed_m[n] + yielding(depths[n] - allowed_m[n])
     for _ in range(PUSHES):
-        if not push_arms(capsules, levels, positions, orientations, led, swivels):
+        if not push_arms(capsules, levels, positions, orientations, led, turns):
             break
-        place_arms(body, led, swivels, rotations, positions, orientations)
+        bring_arms(body, led, turns, rotations, positions, orientations)
     way = (vector.distance(led[0], targets_m[0]), vector.distance(led[1], targets_m[1]))
     targets_m[:] = led
     return way

@@ -14,8 +14,11 @@ from behaviours.playing import body_of, clip_time_s, planted_in_clip
 from behaviours.sources import foot_goals, source_pose
 from engine.body.kinematics import joints_into
 from engine.body.limb_ik import apply_leg, leg_swivel
-from engine.body.skeleton import HIPS, JOINT_COUNT
+from engine.body.limits import clamp_keeping
+from engine.body.skeleton import HIPS, JOINT_COUNT, KNEES
 from engine.core.schedule import Stage, system
+
+KNEE_PLAY_RAD = 0.05  # what a knee gives beyond its limits, so that one that is straight anyway does not catch
 
 
 @njit(cache=True)
@@ -28,6 +31,16 @@ def goals_with_residual(ankle_m, turned, ankles, ankle_turns, elapsed_s, half_li
             ankle_m[side, k] += r[k]
         for k in range(4):
             turned[side, k] = q[k]
+
+
+@njit(cache=True)
+def keep_knees(body, source, rotations):
+    """Keeps a residual (in a pose (J, 4)) from bending a knee backwards, farther than the source itself does. In place."""
+    for j in KNEES:
+        low, high = body.limit_low_rad[j] - KNEE_PLAY_RAD, body.limit_high_rad[j] + KNEE_PLAY_RAD
+        q = clamp_keeping(low, high, source[j], rotations[j])
+        for k in range(4):
+            rotations[j, k] = q[k]
 
 
 @njit(cache=True)
@@ -81,7 +94,9 @@ def settled_pose(world, row: int, tick: float) -> tuple[np.ndarray, np.ndarray]:
     left = remaining2(r.stretch[row], elapsed_s, half_life_s)
     own = legs_to(body, source.root_m, source.rotations, goals.ankle_m)
     own_lengths = (own[0] + left[0], own[1] + left[1])
+    unaltered = source.rotations.copy()
     add_remaining(source.root_m, source.rotations, r.root[row], r.joints[row], elapsed_s, half_life_s)
+    keep_knees(body, unaltered, source.rotations)
     goals_with_residual(goals.ankle_m, goals.turned, r.ankles[row], r.ankle_turns[row], elapsed_s, half_life_s)
     stand_on(body, source.root_m, source.rotations, goals.ankle_m, goals.turned, own_lengths)
     return source.root_m, source.rotations
