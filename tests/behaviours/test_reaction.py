@@ -1,0 +1,113 @@
+"""The reaction as a whole: fig. 4.1 phase by phase, from perception to the clip again."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from behaviours.components import Phase, Playback
+from behaviours.measures import foot_slide_max_m, seam_jumps
+from behaviours.timing import TICK_S
+from tests.behaviours.runs import AHEAD, events, phases, run, simulation_of, track_of
+
+
+def test_the_phases_of_fig_4_1_in_their_order(blocked):
+    wanted = ["play", "startle", "protect", "respond", "recover_blend", "recover_return", "play"]
+    assert phases(blocked) == wanted
+
+
+def test_phases_last_as_long_as_the_thesis_says(blocked):
+    lasts = {row["name"]: row["to_s"] - row["from_s"] for row in blocked.report()["phases"][1:-1]}
+    assert lasts["startle"] == pytest.approx(15 / 120, abs=1e-9)
+    assert lasts["respond"] == pytest.approx(0.080, abs=TICK_S)
+    assert lasts["recover_blend"] == pytest.approx(0.260, abs=TICK_S)
+    assert lasts["recover_return"] == pytest.approx(0.375, abs=TICK_S)
+
+
+def test_contact_is_within_a_tick_of_the_plan(blocked):
+    (contact,) = events(blocked, "contact")
+    assert abs(contact["late_s"]) <= TICK_S
+    assert contact["part"].endswith(("hand", "forearm"))
+
+
+def test_the_clip_runs_on_from_a_sixth_of_a_second_after_perception(blocked):
+    (perceived,) = events(blocked, "perceived")
+    ends = next(event for event in blocked.world.events if event.kind == "phase" and event.data["name"] == "play")
+    at_perception = 0.5 + TICK_S + perceived["tick"] * TICK_S
+    # the return pose is reached at the tick before the clip runs again
+    then = blocked.world[Playback].offset_s[0] + (ends.tick - 1) * TICK_S
+    assert then == pytest.approx(at_perception + 1 / 6, abs=1e-9)
+
+
+def test_planted_feet_stay_and_seams_are_smooth(blocked):
+    track = track_of(blocked)
+    assert foot_slide_max_m(track) < 0.002
+    jump_m, jump_mps = seam_jumps(track)
+    assert jump_m < 0.0005 and jump_mps < 0.05
+    assert len(track.seams) >= 5
+
+
+def test_nothing_jumps_between_ticks(blocked):
+    """A kink of a joint's path bigger than any muscle: the second difference, the tick of the blow left out."""
+    from engine.body.kinematics import joints_of
+
+    track = track_of(blocked)
+    joints = joints_of(track.body, track.pose)[0]
+    kinks = np.linalg.norm(np.diff(joints, 2, axis=0), axis=2).max(axis=1)
+    under_physics = np.isin(track.phase, (Phase.RESPOND, Phase.RECOVER_BLEND))
+    allowed = ~(under_physics[2:] | under_physics[1:-1] | under_physics[:-2])
+    assert kinks[allowed].max() < 400.0 * TICK_S**2  # 40 g
+
+
+def test_without_startle_protection_begins_at_once():
+    simulation = simulation_of([AHEAD], startle=False)
+    for _ in range(30):
+        simulation.step()
+    assert phases(simulation) == ["play", "protect"]
+    assert events(simulation, "perceived")[0]["startle"] == "off"
+
+
+def test_too_late_for_a_startle():
+    simulation = simulation_of([AHEAD | {"ttc_s": 0.2}], startle=True)
+    for _ in range(40):
+        simulation.step()
+    assert events(simulation, "perceived")[0]["startle"] == "too late"
+    assert "startle" not in phases(simulation)
+
+
+def test_struck_unprepared(unseen, blocked):
+    assert phases(unseen)[:2] == ["play", "respond"]
+    assert not events(unseen, "perceived")
+    assert unseen.report()["metrics"]["first_contact"] == "head"
+    # what protection is for
+    assert blocked.report()["metrics"]["head_peak_g"] < 0.6 * unseen.report()["metrics"]["head_peak_g"]
+
+
+def test_no_contact_is_held_for_a_third_of_a_second(missed):
+    if "protect" not in phases(missed):
+        pytest.fail("the ball was not taken for a threat; phases: " + ", ".join(phases(missed)))
+    assert phases(missed) == ["play", "protect", "hold", "recover_return", "play"]
+    lasts = {row["name"]: row["to_s"] - row["from_s"] for row in missed.report()["phases"]}
+    assert lasts["hold"] == pytest.approx(1 / 3, abs=TICK_S)
+    assert not events(missed, "contact")
+
+
+def test_a_second_ball_while_recovering_is_met_too():
+    later = AHEAD | {"azimuth_deg": -20.0, "perceived_s": 1.35}
+    simulation = run([AHEAD, later], startle=False, duration_s=3.5)
+    assert [event["tick"] * TICK_S for event in events(simulation, "perceived")] == pytest.approx([0.2, 1.35], abs=0.02)
+    assert len(events(simulation, "contact")) == 2
+    assert phases(simulation)[-1] == "play"
+    jump_m, jump_mps = seam_jumps(track_of(simulation))
+    assert jump_m < 0.0005 and jump_mps < 0.1
+
+
+def test_a_heavy_blow_knocks_down_and_the_body_comes_to_rest():
+    blow = AHEAD | {"kind": "custom", "mass_kg": 12.0, "radius_m": 0.2, "azimuth_deg": 0.0}
+    simulation = run([blow], duration_s=4.0)
+    assert "down" in phases(simulation)
+    track = track_of(simulation)
+    last, before = track.pose.root_m[-1], track.pose.root_m[-13]
+    assert last[2] < 0.35  # lies
+    assert np.linalg.norm(last - before) < 0.005  # and keeps still
+    assert np.isfinite(track.pose.rotations).all()
