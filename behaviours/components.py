@@ -27,6 +27,7 @@ class Phase(IntEnum):
     RECOVER_BLEND = 5  # part one: simulation into the sustained pose
     RECOVER_RETURN = 6  # part two: on to the return pose
     DOWN = 7  # knocked off the feet: the body stays with the physics
+    STOPPED = 8  # its state was no number any more: stands still as it last was
 
 
 class Playback(Component):
@@ -67,6 +68,7 @@ class Reaction(Component):
     threat = column(dtype=np.int64)  # handle of the ball perceived, or NOBODY
     clip_s = column()  # clip time at perception
     struck = column(dtype=bool)
+    flinches = column(dtype=bool)  # startles at what passes close, and does no more
 
 
 class Blend(Component):
@@ -193,6 +195,7 @@ class Flight(Component):
     restitution = column()  # off the floor; off people it is the settings'
     friction = column()
     held = column(dtype=bool)  # pressed against a body just now: it moves with the contact
+    rested = column(dtype=np.int64)  # ticks for which it has lain still, or been far from everybody
 
 
 class Threat(Component):
@@ -210,6 +213,8 @@ class Threat(Component):
     noticed = column(dtype=bool)  # it has been perceived
     taken_up = column(dtype=bool)  # and the character has decided about it
     spent = column(dtype=bool)  # has struck, or gone past
+    passes = column(dtype=bool)  # it was noticed, but will only come close
+    strayed = column(dtype=bool)  # something has turned it off its line
 
 
 class Script(Component):

@@ -7,7 +7,7 @@ import math
 import numpy as np
 from numba import njit
 
-from behaviours.components import Flight
+from behaviours.components import Flight, Posture
 from behaviours.timing import TICK_S
 from engine.core.schedule import Stage, system
 from engine.maths import quaternion
@@ -15,6 +15,7 @@ from engine.maths.ballistics import GRAVITY_MPS2, fly
 from engine.physics.impact import HOLLOW, contact_impulse
 
 ROLLING = 0.02  # resistance of a ball that rolls on a hard floor, as a share of its weight
+STILL_MPS, FAR_M, REST_TICKS = 0.05, 60.0, 5 * 120
 UP = (0.0, 0.0, 1.0)
 
 
@@ -65,6 +66,20 @@ def fly_all(rows, position, velocity, spin, turned, radius_m, drag, restitution,
         fly_one_tick(
             position[row], velocity[row], spin[row], turned[row], radius_m[row], drag[row], restitution[row], friction[row], dt_s
         )
+
+
+@system(Stage.SENSE, reads=(Flight, Posture), writes=(Flight,))
+def clear_away(world, tick):
+    """Balls that have lain still for long, or are far from everybody, are taken away: a state that is played for hours stays small."""
+    rows = world.rows(Flight)
+    if not len(rows):
+        return
+    f, people = world[Flight], world[Posture].root_m[world.rows(Posture)]
+    still = (f.velocity_mps[rows] ** 2).sum(axis=1) < STILL_MPS**2
+    away = ((f.position_m[rows, None] - people) ** 2).sum(axis=2).min(axis=1, initial=np.inf) > FAR_M**2
+    f.rested[rows] = np.where(still | away, f.rested[rows] + 1, 0)
+    for row in rows[f.rested[rows] > REST_TICKS]:
+        world.despawn(world.entity(row))
 
 
 @system(Stage.SENSE, reads=(Flight,), writes=(Flight,))

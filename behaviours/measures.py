@@ -41,10 +41,10 @@ def runs(flags: np.ndarray) -> list[tuple[int, int]]:
 
 
 def distance_from_line(points_m: np.ndarray, start_m: np.ndarray, end_m: np.ndarray) -> np.ndarray:
-    """(N,) how far points (N, 3) are from a straight segment."""
+    """(N,) how far points (N, 3) are from a straight line, from its start on: a damped overshoot goes on beyond its end."""
     axis = end_m - start_m
     square = float((axis * axis).sum())
-    t = np.clip(((points_m - start_m) * axis).sum(axis=1) / square, 0.0, 1.0) if square > 1e-12 else np.zeros(len(points_m))
+    t = np.maximum(((points_m - start_m) * axis).sum(axis=1) / square, 0.0) if square > 1e-12 else np.zeros(len(points_m))
     return np.linalg.norm(points_m - (start_m + t[:, None] * axis), axis=1)
 
 

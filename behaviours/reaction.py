@@ -36,12 +36,12 @@ from behaviours.rules.startle import startle_pose
 from behaviours.search import choose_return
 from behaviours.settling import settled_pose
 from behaviours.sources import choose_hand_ways, foot_goals, source_pose
-from behaviours.timing import TICK_S, whole_ticks
+from behaviours.timing import TICK_S, time_to_contact_s, whole_ticks
 from engine.body.kinematics import com_of, joints_of
 from engine.body.skeleton import ANKLES, Pose
 from engine.core.schedule import Stage, system
 
-BUSY = (Phase.STARTLE, Phase.PROTECT, Phase.RESPOND, Phase.RECOVER_BLEND, Phase.DOWN)
+BUSY = (Phase.STARTLE, Phase.PROTECT, Phase.RESPOND, Phase.RECOVER_BLEND, Phase.DOWN, Phase.STOPPED)
 STATE = (
     Blend, Character, Feet, Flight, Playback, Posture, Ragdoll, Reaction, Residual, Struck, Sustained, Threat,
 )  # fmt: skip
@@ -124,11 +124,22 @@ def begin_protecting(world, row: int, tick: int) -> None:
     old = moment_before(world, row, tick)
     now, _ = seams.shown(world, row)
     sustained = Pose(s.root_m[row].copy(), s.rotations[row].copy())
-    left = max(1, r.contact[row] - tick + 1)
-    plan_steps(world, row, tick, sustained, STEP_SHARE * left)
-    begin_blend(world, row, tick, now, sustained, left * (1.0 + settings.timing.slack_share))
+    takes = protecting_ticks(world, row, tick)
+    plan_steps(world, row, tick, sustained, STEP_SHARE * takes)
+    begin_blend(world, row, tick, now, sustained, takes * (1.0 + settings.timing.slack_share))
     enter(world, row, tick, Phase.PROTECT)
     keep_continuous(world, row, tick, old)
+
+
+def protecting_ticks(world, row: int, tick: int) -> float:
+    """How long the movement takes: up to contact; or, angle-free (4.2), as long as it would against a threat from ahead."""
+    r, timing = world[Reaction], world.assets.settings.timing
+    left = max(1, int(r.contact[row]) - tick + 1)
+    if not timing.angle_free or not world.alive(int(r.threat[row])):
+        return float(left)
+    speed_norm = float(world[Threat].speed_norm[world.row(int(r.threat[row]))])
+    from_ahead = whole_ticks(time_to_contact_s(speed_norm, 1.0, timing))
+    return float(min(left, max(1, from_ahead - (tick - int(r.perceived[row])))))
 
 
 def plan_steps(world, row: int, tick: int, to: Pose, ticks: float) -> None:
@@ -152,11 +163,14 @@ def notice(world, tick):
             continue
         threats.taken_up[threat_row] = True
         row = world.row(int(threats.at[threat_row]))
-        if r.phase[row] in BUSY or not c.protects[row]:
+        if (r.phase[row] in BUSY and not r.flinches[row]) or not c.protects[row]:
+            continue
+        if threats.passes[threat_row]:
+            flinch(world, row, tick, threat_row)
             continue
         r.perceived[row], r.contact[row] = tick, threats.contact[threat_row]
         r.threat[row] = world.entity(threat_row)
-        r.struck[row] = False
+        r.struck[row], r.flinches[row] = False, False
         r.clip_s[row] = perception_clip_s(world, row, tick)
         ttc_s = (r.contact[row] - tick) * TICK_S
         left_s = ttc_s - settings.timing.startle_s
@@ -183,8 +197,11 @@ def advance_reactions(world, tick):
     for row in world.rows(Reaction, Posture):
         phase, lasted = Phase(int(r.phase[row])), tick - r.since[row]
         if phase == Phase.STARTLE and lasted >= whole_ticks(settings.timing.startle_s):
-            begin_protecting(world, row, tick)
-        elif phase == Phase.PROTECT and tick > r.contact[row] + MISS_TICKS:
+            if r.flinches[row]:
+                end_flinch(world, row, tick)
+            else:
+                begin_protecting(world, row, tick)
+        elif phase == Phase.PROTECT and (tick > r.contact[row] + MISS_TICKS or is_off(world, row)):
             world.emit("missed", world.entity(row), threat=int(r.threat[row]))
             enter(world, row, tick, Phase.HOLD)
         elif phase == Phase.HOLD and lasted >= whole_ticks(settings.recovery.hold_s):
@@ -205,6 +222,37 @@ def advance_reactions(world, tick):
             enter(world, row, tick, Phase.PLAY)
             keep_continuous(world, row, tick, old)
             r.threat[row] = NOBODY
+
+
+def is_off(world, row: int) -> bool:
+    """Whether what a character guards against is no longer there, or no longer coming."""
+    threat = int(world[Reaction].threat[row])
+    return not world.alive(threat) or bool(world[Threat].strayed[world.row(threat)])
+
+
+def flinch(world, row: int, tick: int, threat_row: int) -> None:
+    """What only passes close may startle; it never calls for protection (A6)."""
+    r = world[Reaction]
+    if not world[Character].startle[row] or r.phase[row] != Phase.PLAY:
+        return
+    r.perceived[row], r.contact[row] = tick, world[Threat].contact[threat_row]
+    r.threat[row], r.struck[row], r.flinches[row] = world.entity(threat_row), False, True
+    r.clip_s[row] = perception_clip_s(world, row, tick)
+    world.emit("flinched", world.entity(row), threat=int(r.threat[row]))
+    begin_startle(world, row, tick, threat_row)
+
+
+def end_flinch(world, row: int, tick: int) -> None:
+    """From the startle straight back to the clip: from the pose that is shown, on the feet as they are."""
+    f, s, body, now = world[Feet], world[Sustained], body_of(world, row), seams.shown(world, row)[0]
+    old = moment_before(world, row, tick)
+    s.root_m[row], s.rotations[row] = now
+    for side in range(2):
+        foot_plan.hold(f, row, side, foot_plan.footing_of(body, now, side))
+    world[Reaction].flinches[row] = False
+    begin_return(world, row, tick)
+    enter(world, row, tick, Phase.RECOVER_RETURN)
+    keep_continuous(world, row, tick, old)
 
 
 MISS_TICKS = 6  # after the promised contact, before a threat that touched nothing counts as gone

@@ -57,6 +57,7 @@ def metrics_of(world, row: int, track: Track) -> dict[str, Any]:
         "overlap_between": between,
         "seam_position_jump_max_m": place,
         "seam_velocity_jump_max_mps": speed,
+        "stopped": sum(event.kind == "stopped" for event in mine),
         "recovered_to": recovered_to(track, world.assets.clips),
     }
 

@@ -120,7 +120,7 @@ def meet_balls(world, tick):
     for ball in world.rows(Flight):
         for row in world.rows(Posture, Character):
             reach_m = f.radius_m[ball] + NEAR_M + vector.distance(f.before_m[ball], f.position_m[ball])
-            if f.held[ball] or vector.distance(f.position_m[ball], p.root_m[row]) > reach_m:
+            if f.held[ball] or world[Reaction].phase[row] == Phase.STOPPED or vector.distance(f.position_m[ball], p.root_m[row]) > reach_m:
                 continue
             now, before = shown(world, row)
             body = body_of(world, row)

@@ -96,19 +96,41 @@ def normal_ttc_s(world, row: int, threat_row: int, velocity_mps) -> float:
 @system(Stage.SENSE, reads=(Flight, Threat, Posture, Character, Reaction), writes=(Threat,))
 def watch_free_threats(world, tick):
     """A free ball that will hit or pass close is noticed, no sooner than eq. 4.1 has it; what it will do is known each tick."""
-    t, senses = world[Threat], world.assets.settings.senses
+    t = world[Threat]
     for threat_row in world.rows(Threat, Flight):
-        if t.scripted[threat_row] or t.noticed[threat_row] or t.spent[threat_row]:
+        if t.spent[threat_row]:
             continue
         row = world.row(int(t.at[threat_row]))
-        name, meeting = predict(world, row, threat_row)
-        if meeting.after_s <= 0.0:
-            t.spent[threat_row] = meeting.distance_m > senses.gone_m
-            continue
-        if meeting.distance_m > world[Flight].radius_m[threat_row] + senses.hit_within_m:
-            continue
-        if meeting.after_s <= normal_ttc_s(world, row, threat_row, meeting.velocity_mps):
-            face(world, threat_row, name, meeting.centre_m, meeting.velocity_mps, tick, meeting.after_s)
+        if t.noticed[threat_row] and not t.passes[threat_row]:
+            t.strayed[threat_row] = has_strayed(world, threat_row)
+        elif not t.scripted[threat_row]:
+            look_at(world, row, threat_row, tick)
+
+
+def look_at(world, row: int, threat_row: int, tick: int) -> None:
+    """A free ball that nobody guards against yet: will it hit, pass close, or neither?"""
+    t, senses = world[Threat], world.assets.settings.senses
+    name, meeting = predict(world, row, threat_row)
+    if meeting.after_s <= 0.0:
+        t.spent[threat_row] = meeting.distance_m > senses.gone_m
+        return
+    gap_m = meeting.distance_m - world[Flight].radius_m[threat_row]
+    passes = gap_m > senses.hit_within_m
+    if gap_m > max(senses.hit_within_m, senses.flinch_within_m) or (passes and t.noticed[threat_row]):
+        return
+    if meeting.after_s <= normal_ttc_s(world, row, threat_row, meeting.velocity_mps):
+        face(world, threat_row, name, meeting.centre_m, meeting.velocity_mps, tick, meeting.after_s)
+        t.passes[threat_row], t.taken_up[threat_row] = passes, False
+
+
+def has_strayed(world, threat_row: int) -> bool:
+    """Whether a noticed ball no longer comes along the line that it is expected on: something else was in its way."""
+    f, t = world[Flight], world[Threat]
+    _, distance_m, _, _ = closest_approach(
+        f.position_m[threat_row], f.velocity_mps[threat_row], float(f.drag_per_m[threat_row]), t.line_m[threat_row],
+        world.assets.settings.senses.horizon_s, TICK_S,
+    )  # fmt: skip
+    return bool(distance_m > world.assets.settings.senses.strayed_m)
 
 
 def face(world, threat_row: int, aim: str, line_m, velocity_mps, tick: int, ttc_s: float) -> None:

@@ -170,6 +170,8 @@ class Senses(NamedTuple):
 
     horizon_s: Annotated[float, Constant("s", "A6", "how far ahead a flight is predicted")] = 1.6
     hit_within_m: Annotated[float, Constant("m", "A6", "skin of the ball to the middle of head, torso or pelvis: less is a hit")] = 0.28
+    flinch_within_m: Annotated[float, Constant("m", "A6", "farther than a hit but within this: it startles, and no more")] = 0.50
+    strayed_m: Annotated[float, Constant("m", "A6", "a ball that will pass this far off its line is not coming any more")] = 0.40
     gone_m: Annotated[float, Constant("m", "A6", "a ball that goes away beyond this is no threat any more")] = 1.0
 
 

@@ -8,8 +8,8 @@ from numba import njit
 from behaviours import feet as foot_plan
 from behaviours import seams
 from behaviours.blending import drop_beyond_own, legs_to
-from behaviours.components import Blend, Character, Feet, Phase, Playback, Posture, Ragdoll, Reaction, Residual
-from behaviours.inertialise import add_remaining, remaining, remaining2, turned_by
+from behaviours.components import Blend, Blow, Character, Feet, Phase, Playback, Posture, Ragdoll, Reaction, Residual, Sustained
+from behaviours.inertialise import add_remaining, nothing_left, remaining, remaining2, turned_by
 from behaviours.playing import body_of, clip_time_s, planted_in_clip
 from behaviours.sources import foot_goals, source_pose
 from engine.body.kinematics import joints_into
@@ -18,6 +18,7 @@ from engine.body.limits import clamp_keeping
 from engine.body.skeleton import HIPS, JOINT_COUNT, KNEES
 from engine.core.schedule import Stage, system
 
+BELONGINGS = (Ragdoll, Blow, Residual, Blend, Feet, Sustained, Playback)  # what a pose is made from
 KNEE_PLAY_RAD = 0.05  # what a knee gives beyond its limits, so that one that is straight anyway does not catch
 
 
@@ -66,8 +67,8 @@ def stand_on(body, root_m, rotations, ankle_m, turned, own_lengths):
 
 @system(
     Stage.SETTLE,
-    reads=(Playback, Posture, Character, Reaction, Blend, Ragdoll, Feet, Residual),
-    writes=(Posture, Feet),
+    reads=(Playback, Posture, Character, Reaction, Blend, Blow, Ragdoll, Feet, Residual, Sustained),
+    writes=(Posture, Feet, Reaction, Ragdoll, Residual),
 )
 def settle_poses(world, tick):
     """Every character's pose of this tick."""
@@ -76,9 +77,31 @@ def settle_poses(world, tick):
     foot_plan.land_finished_steps(world[Feet], rows, tick)
     for row in rows:
         root_m, rotations = settled_pose(world, int(row), tick)
+        if not (np.isfinite(root_m).all() and np.isfinite(rotations).all()):
+            stop(world, int(row), tick)
+            root_m, rotations = p.root_m[row].copy(), p.rotations[row].copy()
         p.before_root_m[row], p.before_rotations[row] = p.root_m[row], p.rotations[row]
         p.root_m[row], p.rotations[row] = root_m, rotations
         world[Feet].planted[row] = standing_feet(world, int(row), tick)
+
+
+def stop(world, row: int, tick: int) -> None:
+    """Stops a character whose state is no number any more, as it last was; says which field it was, and when."""
+    world[Reaction].phase[row], world[Reaction].since[row] = Phase.STOPPED, tick
+    component, field = next(
+        (
+            (component.__name__, field)
+            for component in BELONGINGS
+            for field in component.columns
+            if not np.isfinite(getattr(world[component], field)[row]).all()
+        ),
+        ("Posture", "rotations"),
+    )
+    world.emit("stopped", world.entity(row), component=component, field=field)
+    world[Ragdoll].active[row] = False
+    nothing_left(world[Residual], row)
+    for side in range(2):
+        foot_plan.let_go(world[Feet], row, side)
 
 
 def settled_pose(world, row: int, tick: float) -> tuple[np.ndarray, np.ndarray]:
@@ -87,7 +110,7 @@ def settled_pose(world, row: int, tick: float) -> tuple[np.ndarray, np.ndarray]:
     source = source_pose(world, row, tick)
     phase = world[Reaction].phase[row]
     calm = seams.is_over(world, row, tick, half_life_s)
-    if calm and phase in (Phase.PLAY, Phase.RESPOND, Phase.DOWN):
+    if phase == Phase.STOPPED or (calm and phase in (Phase.PLAY, Phase.RESPOND, Phase.DOWN)):
         return source.root_m, source.rotations
     goals = foot_goals(world, row, tick, source)
     elapsed_s, body = seams.elapsed_s(world, row, tick), body_of(world, row)

@@ -25,7 +25,7 @@ from behaviours.components import (
     Struck,
     Sustained,
 )
-from behaviours.flying import fly_balls
+from behaviours.flying import clear_away, fly_balls
 from behaviours.getting_up import get_up
 from behaviours.going_on import go_on
 from behaviours.launching import launch_threats, throw
@@ -55,6 +55,7 @@ from engine.physics.model import RagdollModel, model_for
 
 # one tick, the way the data flows; the schedule sorts by stage and keeps this order within one
 SYSTEMS = (
+    clear_away,
     fly_balls,
     launch_threats,
     watch_free_threats,

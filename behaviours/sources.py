@@ -8,22 +8,26 @@ from __future__ import annotations
 import numpy as np
 
 from behaviours.blending import FootGoals, blend_end, blend_into, choose_arcs
-from behaviours.components import NOBODY, Blend, Character, Feet, Phase, Ragdoll, Reaction
+from behaviours.components import NOBODY, Blend, Character, Feet, Phase, Posture, Ragdoll, Reaction
 from behaviours.feet import goals_of
 from behaviours.lying import blend_lying
 from behaviours.playing import body_of, capsules_of, clip_pose, clip_time_s
-from behaviours.timing import TICK_S, ease, whole_ticks
+from behaviours.timing import TICK_S, ease, overshoot, whole_ticks
 from engine.body.kinematics import joints_of
 from engine.body.skeleton import ANKLES, JOINT_COUNT, TOES, Pose
 from engine.physics import ragdoll
 
 ANKLE_ROWS, TOE_ROWS = list(ANKLES), list(TOES)
 STRAIGHT = np.zeros(2)
+PAUSING = (Phase.PROTECT, Phase.HOLD)  # the pose is there, the ball is not
 
 
 def source_pose(world, row: int, tick: float) -> Pose:
     """The pose that the present phase asks for at a tick, whole or not. World; a copy."""
     phase = world[Reaction].phase[row]
+    if phase == Phase.STOPPED:
+        p = world[Posture]
+        return Pose(p.root_m[row].copy(), p.rotations[row].copy())
     if phase == Phase.PLAY:
         return clip_pose(world, row, clip_time_s(world, row, tick))
     if phase in (Phase.RESPOND, Phase.DOWN):
@@ -55,6 +59,10 @@ def blended(world, row: int, tick: float) -> tuple[Pose, tuple[float, float]]:
     start = blend_end(body, shape, b.from_root_m[row].copy(), b.from_rotations[row].copy())
     end = blend_end(body, shape, b.to_root_m[row].copy(), b.to_rotations[row].copy())
     weight = ease((tick - b.since[row]) / b.ticks[row])
+    if world[Reaction].phase[row] in PAUSING:
+        after_s = float(tick - b.since[row] - b.ticks[row]) * TICK_S
+        s = world.assets.settings.blend
+        weight += overshoot(after_s, s.overshoot_share, s.overshoot_period_s, s.overshoot_half_life_s)
     return _between(world, row, tick, start, end, weight, b.arcs[row])
 
 

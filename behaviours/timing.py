@@ -37,6 +37,19 @@ def ease(progress):
 
 
 @njit(cache=True)
+def overshoot(after_s, share, period_s, half_life_s):
+    """How far beyond its end a movement still goes, as a share of its way: a swing about the end that begins gently and dies.
+
+    What fills a pause instead of a freeze (thesis 4.2, left to future work there). No velocity at first; `share` is the
+    greatest swing there could be, were it not dying away.
+    """
+    if after_s <= 0.0:
+        return 0.0
+    alive = 2.0 ** (-after_s / half_life_s)
+    return 4.0 * share * alive * (1.0 - alive) * math.sin(2.0 * math.pi * after_s / period_s)
+
+
+@njit(cache=True)
 def arc(progress):
     """Up from 0 to 1 and back to 0 with no velocity at either end: the height of a step. sin^2(pi u)."""
     u = min(max(progress, 0.0), 1.0)

@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import pytest
 
-from tests.behaviours.runs import AHEAD, run
+from behaviours.components import Flight
+
+from tests.behaviours.runs import AHEAD, run, simulation_of
 
 
 @pytest.fixture(scope="session")
@@ -21,6 +23,10 @@ def unseen():
 
 @pytest.fixture(scope="session")
 def missed():
-    """A ball that will pass an arm's length beside the head: nothing is touched."""
-    ball = {"free": True, "position_m": [7.0, 0.25, 1.9], "velocity_mps": [-12.0, 0.0, 2.3], "released_s": 0.2}
-    return run([ball], startle=False, duration_s=3.0)
+    """The ball is taken out of the air before it arrives."""
+    simulation = simulation_of([AHEAD], startle=False, duration_s=3.0)
+    for _ in range(simulation.ticks):
+        if simulation.world.tick == 80:
+            simulation.world.despawn(simulation.world.entity(int(simulation.world.rows(Flight)[0])))
+        simulation.step()
+    return simulation
