@@ -13,7 +13,7 @@ from typing import NamedTuple
 
 from numba import njit
 
-from engine.body.limb_ik import place_children
+from engine.body.limb_ik import place_children, side_sign
 from engine.body.limits import components
 from engine.body.skeleton import ANKLES, CLAVICLES, ELBOWS, HIPS, KNEES, PELVIS, SHOULDERS, TOES, WRISTS
 from engine.maths import quaternion, vector
@@ -23,7 +23,7 @@ STEP_RAD = math.radians(12.0)
 ARM_STEPS, LEG_STEPS = 8, 4  # how far to look, to either side
 HALVINGS = 12  # of a step: the edge of what is allowed is found to within a few thousandths of a degree
 RAD_A_METRE = 5.0  # 2 cm inside the trunk is as bad as 6 degrees beyond a limit
-FULL_TURN = (1.0, 0.0, 0.0, 0.0)
+NO_TURN = (1.0, 0.0, 0.0, 0.0)
 
 Triple = tuple[float, float, float]
 Quaternion = tuple[float, float, float, float]
@@ -44,6 +44,7 @@ class Limb(NamedTuple):
     foot_low: Triple  # the ankle's limits
     foot_high: Triple
     is_leg: bool
+    outwards: float  # the sign of a turn that swings elbow or knee away from the body
 
 
 @njit(cache=True)
@@ -73,8 +74,9 @@ def depth_m(mid, end, arm_radius_m, obstacles, radii_m):
 
 
 @njit(cache=True)
-def trouble(limb, turn_rad, margin_rad, arm_radius_m, obstacles, radii_m):
-    """What is wrong with a limb after a turn about root - end, radians; 0 if nothing."""
+def trouble(limb, turn_out_rad, margin_rad, arm_radius_m, obstacles, radii_m):
+    """What is wrong with a limb after a turn about root - end, outwards, radians; 0 if nothing."""
+    turn_rad = limb.outwards * turn_out_rad
     axis = vector.unit(vector.subtract(limb.end, limb.root), (0.0, 0.0, -1.0))
     turn = quaternion.from_axis_angle(axis, turn_rad)
     seen = quaternion.from_axis_angle(quaternion.unrotate(limb.parent, axis), turn_rad)
@@ -134,7 +136,7 @@ def free_arm(
             return 0.0
     limb = Limb(
         vector.at(positions, shoulder), mid, end, quaternion.at(orientations, clavicle), upper, low, high,
-        FULL_TURN, FULL_TURN, low, high, False,
+        NO_TURN, NO_TURN, low, high, False, side_sign(side),
     )  # fmt: skip
     turn, wrong = freest_turn(limb, margin_rad, arm_radius_m, obstacles, radii_m)
     turn_limb(offset_m, limb, turn, clavicle, shoulder, elbow, wrist, rotations, positions, orientations)
@@ -154,7 +156,7 @@ def free_leg(side, offset_m, low_rad, high_rad, margin_rad, obstacles, radii_m, 
     limb = Limb(
         vector.at(positions, hip), vector.at(positions, knee), vector.at(positions, ankle),
         quaternion.at(orientations, pelvis), upper, low, high, foot, quaternion.at(orientations, knee),
-        foot_low, foot_high, True,
+        foot_low, foot_high, True, side_sign(side),
     )  # fmt: skip
     turn, wrong = freest_turn(limb, margin_rad, 0.0, obstacles, radii_m)
     turn_limb(offset_m, limb, turn, pelvis, hip, knee, ankle, rotations, positions, orientations)
@@ -166,8 +168,9 @@ def free_leg(side, offset_m, low_rad, high_rad, margin_rad, obstacles, radii_m, 
 
 
 @njit(cache=True)
-def turn_limb(offset_m, limb, turn_rad, parent, upper, middle, end, rotations, positions, orientations):
+def turn_limb(offset_m, limb, turn_out_rad, parent, upper, middle, end, rotations, positions, orientations):
     """Turns a limb about root - end: the root joint's rotation, and positions and orientations down to the end."""
+    turn_rad = limb.outwards * turn_out_rad
     axis = vector.unit(vector.subtract(limb.end, limb.root), (0.0, 0.0, -1.0))
     seen = quaternion.from_axis_angle(quaternion.unrotate(limb.parent, axis), turn_rad)
     quaternion.put(rotations, upper, quaternion.normalise(quaternion.multiply(seen, limb.upper)))

@@ -14,7 +14,7 @@ from engine.body.footing import leg_length_m, nearest_footing
 from engine.body.skeleton import ANKLES, HIPS, TOES, Body
 from engine.maths import quaternion, vector
 
-PULLS = 30  # alternating projections: two legs that both fall short agree to a fraction of a millimetre
+PULLS = 60  # averaged projections: two legs that both fall short agree to a fraction of a millimetre
 
 
 @njit(cache=True)
@@ -24,15 +24,21 @@ def pull_pelvis(leg_m, positions, feet, leg_share):
     positions (J, 3): hips of the rules pose. The look-ahead carries the pelvis out of the planted leg's reach in over a
     third of the frames of a walk; it is drawn back along the leg, which mostly lowers it.
     """
-    shift = np.zeros(3)
+    shift, pull = np.zeros(3), np.zeros(3)
     for _ in range(PULLS):
+        pull[:] = 0.0
+        short = 0
         for side in range(2):
             hip, ankle = vector.at(positions, HIPS[side]), vector.at(feet.ankle_m, side)
             leg = (hip[0] + shift[0] - ankle[0], hip[1] + shift[1] - ankle[1], hip[2] + shift[2] - ankle[2])
             long, reach = vector.length(leg), leg_m[side] * leg_share
             if feet.held[side] and long > reach:
+                short += 1
                 for k in range(3):
-                    shift[k] += leg[k] * (reach / long - 1.0)
+                    pull[k] += leg[k] * (reach / long - 1.0)
+        if short == 0:
+            break
+        shift += pull / short  # both at once, so that left and right are treated alike
     return shift
 
 

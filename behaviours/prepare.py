@@ -10,9 +10,10 @@ from numba import njit
 from behaviours import plant
 from behaviours.apply_rules import hang_leg, place_trunk
 from behaviours.look_ahead import PelvisWay, go_ahead
+from behaviours.mirroring import mirror_pose, mirror_task, mirror_threat
 from behaviours.perceived import PerceivedThreat, target_centre
 from behaviours.rules.controls import LEAN, TURN, controls_from_threat
-from behaviours.rules.turn import turn_side, wanted_turn
+from behaviours.rules.turn import TURN_RIGHT, turn_side, wanted_turn
 from behaviours.rules.wrap import wrap_share
 from behaviours.settings import Settings
 from behaviours.task import Choices, Posed, Rules, Start, Task, bones_of, new_posed
@@ -29,6 +30,7 @@ from engine.body.skeleton import (
     Body,
     Pose,
 )
+from engine.clips.mirror import mirror_body
 from engine.maths import quaternion, vector
 
 LEG_JOINTS = 4  # hip, knee, ankle, toe, one after the other
@@ -51,6 +53,37 @@ def prepare(
     at perception. With `landing`, pose_ahead is the clip's next landing instead, `planted` the feet that stand *there*,
     and they are held where that pose has them.
     """
+    if _side(pose_now, threat, settings, previous_turn_side) == TURN_RIGHT:
+        return _prepare(body, pose_now, pose_ahead, planted, threat, settings, previous_turn_side, landing)
+    # who turns left is worked out in the mirror, see behaviours.mirroring
+    mirrored = _prepare(
+        mirror_body(body), _contiguous(mirror_pose(pose_now)), _contiguous(mirror_pose(pose_ahead)),
+        np.array(planted, bool)[::-1], mirror_threat(threat), settings, -previous_turn_side, landing,
+    )  # fmt: skip
+    return mirror_task(mirrored)
+
+
+def _side(pose_now: Pose, threat: PerceivedThreat, settings: Settings, previous_turn_side: float) -> float:
+    """Which way this threat turns the character."""
+    heading = quaternion.heading(pose_now.rotations[PELVIS])
+    travel = quaternion.unrotate(quaternion.about_z(heading), threat.direction)
+    return turn_side(travel, settings.lean_turn.dead_ahead_rad, float(previous_turn_side))
+
+
+def _contiguous(pose: Pose) -> Pose:
+    return Pose(np.ascontiguousarray(pose.root_m), np.ascontiguousarray(pose.rotations))
+
+
+def _prepare(
+    body: Body,
+    pose_now: Pose,
+    pose_ahead: Pose,
+    planted,
+    threat: PerceivedThreat,
+    settings: Settings,
+    previous_turn_side: float,
+    landing: bool,
+) -> Task:
     now_positions, now_orientations = joints_of(body, pose_now)
     ahead_positions, ahead_orientations = joints_of(body, pose_ahead)
     feet = plant.stand_where_planted(

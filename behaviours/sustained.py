@@ -11,6 +11,14 @@ from numba import njit
 from behaviours import minimise
 from behaviours.apply_rules import apply_rules
 from behaviours.guard import stop_shoulder
+from behaviours.mirroring import (
+    mirror_choices,
+    mirror_controls,
+    mirror_feet,
+    mirror_pose,
+    mirror_reference,
+    mirror_task,
+)
 from behaviours.perceived import PerceivedThreat
 from behaviours.prepare import prepare
 from behaviours.rules.controls import CONTROL_COUNT, controls_from_threat
@@ -30,6 +38,7 @@ from engine.body.kinematics import centre_of_mass
 from engine.body.skeleton import BACK, HIPS, PELVIS, WAIST, WRISTS, Body, Pose
 from engine.body.two_bones import SOFT_REACH_M
 from engine.body.support import inside, polygon_of
+from engine.clips.mirror import FLIP_POINT, mirror_body
 from engine.maths import quaternion, vector
 
 EXACT = 0.0  # leg reach without the soft end: for poses that are shown
@@ -95,7 +104,13 @@ def protect(
 
 
 def solve_protection(body: Body, task: Task, settings: Settings) -> Protection:
-    """Rules pose, search and report, for a task that is prepared."""
+    """Rules pose, search and report, for a task that is prepared. Who turns left is worked out in the mirror."""
+    if task.choices.turn_side > 0.0:
+        return mirror_protection(_solve_protection(mirror_body(body), mirror_task(task), settings))
+    return _solve_protection(body, task, settings)
+
+
+def _solve_protection(body: Body, task: Task, settings: Settings) -> Protection:
     controls = controls_from_threat(task.threat.speed_norm, task.threat.size_norm)
     posed = new_posed()
     rules_shift = pose_exactly(task, np.zeros(3), controls, posed, settings.balance.foot_tolerance_m)
@@ -221,16 +236,23 @@ def pose_exactly(task, shift, controls, posed, tolerance_m):
     The pelvis is lowered by what is missing, which leaves the COM over the same ground. Only where the foot lies farther
     to the side than the leg is long is it drawn towards it.
     """
-    given = np.zeros(3)
+    given, most = np.zeros(3), np.zeros(3)
     apply_rules(task, shift, controls, EXACT, posed)
     for _ in range(LOWERINGS):
-        missing = 0.0
+        short = 0
+        most[:] = 0.0
         for side in range(2):
             if task.feet.held[side] and posed.foot_miss_m[side] > tolerance_m:
-                missing = max(missing, posed.foot_miss_m[side])
-                _give(task, side, posed, given)
-        if missing == 0.0:
+                short += 1
+                x, y, z = _missing(vector.at(posed.positions, HIPS[side]), vector.at(task.feet.ankle_m, side), task.build.leg_m[side])
+                most[0] += x
+                most[1] += y
+                most[2] = min(most[2], z)
+        if short == 0:
             break
+        given[0] += most[0] / short
+        given[1] += most[1] / short
+        given[2] += most[2]
         apply_rules(task, shift + given, controls, EXACT, posed)
     low_rad, high_rad = task.start.low_rad, task.start.high_rad
     for side in range(2):
@@ -245,19 +267,14 @@ def pose_exactly(task, shift, controls, posed, tolerance_m):
 
 
 @njit(cache=True)
-def _give(task, side, posed, given):
-    """Adds to `given` what brings one hip within reach of its foot."""
-    hip, ankle = vector.at(posed.positions, HIPS[side]), vector.at(task.feet.ankle_m, side)
-    reach = task.build.leg_m[side] - 1e-6
-    x, y, z = hip[0] - ankle[0], hip[1] - ankle[1], hip[2] - ankle[2]
+def _missing(hip, ankle, leg_m):
+    """What brings one hip within reach of its foot: down; along the leg too, where it lies farther aside than down."""
+    reach = leg_m - 1e-6
+    x, y, z = vector.subtract(hip, ankle)
     level = reach * reach - x * x - y * y
     if level > 0.25 * reach * reach:
-        given[2] = min(given[2], given[2] + np.sqrt(level) - z)
-        return
-    long = vector.length((x, y, z))
-    given[0] += x * (reach / long - 1.0)
-    given[1] += y * (reach / long - 1.0)
-    given[2] += z * (reach / long - 1.0)
+        return (0.0, 0.0, np.sqrt(level) - z)
+    return vector.scale((x, y, z), reach / vector.length((x, y, z)) - 1.0)
 
 
 def case_of(inside_before: bool, inside_after: bool) -> Case:
@@ -269,3 +286,21 @@ def case_of(inside_before: bool, inside_after: bool) -> Case:
 
 def _pose_of(posed: Posed) -> Pose:
     return Pose(posed.positions[PELVIS].copy(), posed.rotations.copy())
+
+
+def mirror_protection(found: Protection) -> Protection:
+    """The same, left and right exchanged."""
+    return found._replace(
+        rules=mirror_pose(found.rules),
+        sustained=mirror_pose(found.sustained),
+        controls_initial=mirror_controls(found.controls_initial),
+        controls=mirror_controls(found.controls),
+        com_rules_m=found.com_rules_m * FLIP_POINT,
+        com_m=found.com_m * FLIP_POINT,
+        com_wanted_m=found.com_wanted_m * FLIP_POINT[:2],
+        support_m=found.support_m[::-1] * FLIP_POINT[:2],
+        choices=mirror_choices(found.choices),
+        feet=mirror_feet(found.feet),
+        task=mirror_task(found.task),
+        reference=mirror_reference(found.reference),
+    )
