@@ -17,7 +17,7 @@ from typing import NoReturn
 
 from engine.core.errors import EXIT_GOOD, EXIT_INTERRUPTED, BadInput, BraceError
 
-COMMANDS = ("demo", "capture", "react", "figure", "stance", "replay", "clips", "bench", "doctor")
+COMMANDS = ("demo", "capture", "react", "pose", "figure", "stance", "replay", "export", "clips", "bench", "doctor")
 EXIT_INTERNAL = 1
 EXIT_BROKEN_PIPE = 141  # what the shell reports of any program whose reader went away
 
