@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 
+import numpy as np
 from numba import njit
 
 from engine.body import limb_ik, limits
@@ -23,6 +24,7 @@ HANG = 0.85
 SOFT_LEAN = 0.1  # radians of sideways lean over which the flank takes an arm up
 # how the nearest allowed swivel is looked for
 SWIVEL_STEPS, SWIVEL_STEP = 20, math.radians(6.0)
+SECTIONS, GOLDEN = 18, 0.5 * (math.sqrt(5.0) - 1.0)
 ROUNDING_RAD = 1e-6  # a straight elbow's angle is known no better
 
 
@@ -108,8 +110,30 @@ def reach_within_limits(body, rotations, positions, orientations, side, target_m
                 return _hold_at_limits(body, rotations, positions, orientations, side, target_m), allowed, 0.0
             if strain < least:
                 least, easiest = strain, allowed
-    reach(body, rotations, positions, orientations, side, target_m, easiest)
+    easiest = _easiest_near(body, rotations, positions, orientations, side, target_m, easiest)
+    least = strain_rad(body, rotations, side)
+    if least <= ROUNDING_RAD:
+        least = 0.0
     return _hold_at_limits(body, rotations, positions, orientations, side, target_m), easiest, least
+
+
+@njit(cache=True)
+def _easiest_near(body, rotations, positions, orientations, side, target_m, swivel_rad):
+    """The swivel of the least strain within a step of one; leaves the arm there. Golden sections."""
+    low, high = swivel_rad - SWIVEL_STEP, swivel_rad + SWIVEL_STEP
+    strains = np.empty(2)
+    for _ in range(SECTIONS):
+        tries = (high - GOLDEN * (high - low), low + GOLDEN * (high - low))
+        for k in range(2):
+            reach(body, rotations, positions, orientations, side, target_m, tries[k])
+            strains[k] = strain_rad(body, rotations, side)
+        if strains[0] <= strains[1]:
+            high = tries[1]
+        else:
+            low = tries[0]
+    middle = 0.5 * (low + high)
+    reach(body, rotations, positions, orientations, side, target_m, middle)
+    return middle
 
 
 @njit(cache=True)
@@ -139,11 +163,15 @@ def _edge_of_allowed(body, rotations, positions, orientations, side, target_m, f
 
 @njit(cache=True)
 def strain_rad(body, rotations, side):
-    """How far shoulder or elbow is beyond its limits."""
-    s, e = SHOULDERS[side], ELBOWS[side]
-    shoulder = limits.joint_excess_rad(body.limit_low_rad[s], body.limit_high_rad[s], quaternion.IDENTITY, rotations[s])
-    elbow = limits.joint_excess_rad(body.limit_low_rad[e], body.limit_high_rad[e], quaternion.IDENTITY, rotations[e])
-    return max(shoulder, elbow)
+    """How far shoulder and elbow are beyond their limits: the root of the sum of the squares of what each angle is over."""
+    total = 0.0
+    for joint in (SHOULDERS[side], ELBOWS[side]):
+        angle = limits.components(rotations[joint])
+        for axis in range(3):
+            low, high = body.limit_low_rad[joint, axis], body.limit_high_rad[joint, axis]
+            over = max(low - angle[axis], angle[axis] - high, 0.0)
+            total += over * over
+    return math.sqrt(total)
 
 
 @njit(cache=True)

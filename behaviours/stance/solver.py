@@ -28,7 +28,7 @@ MOST_CYCLES = 20
 
 # first step and tolerance of each unknown's line search, in the order of torso.UNKNOWNS
 STEPS = np.array([0.3, 0.3, 0.15, 0.1, 0.06, 0.1])
-TOLERANCES = np.array([0.05, 0.05, 0.015, 0.012, 0.012, 0.01])
+TOLERANCES = np.array([0.03, 0.03, 0.01, 0.008, 0.008, 0.006])
 
 
 class Wishes(NamedTuple):

@@ -71,8 +71,8 @@ def make_cases(body: Body, count: int = CASES, seed: int = SEED) -> list[Case]:
 
 
 def _target(body, standing, side, chance):
-    azimuth, elevation = chance.uniform(-0.7, 1.2) * (1 - 2 * side), chance.uniform(-1.0, 1.0)
-    away = chance.uniform(0.5, 1.0) * arms.arm_length_m(body, side)
+    azimuth, elevation = chance.uniform(-0.5, 1.2) * (1 - 2 * side), chance.uniform(-1.0, 1.0)
+    away = chance.uniform(0.6, 1.0) * arms.arm_length_m(body, side)
     level = away * math.cos(elevation)
     way = (level * math.cos(azimuth), level * math.sin(azimuth), away * math.sin(elevation))
     return tuple(float(x) for x in np.add(standing.joints_m[SHOULDERS[side]], way))

@@ -53,17 +53,17 @@ def eager(intensity: float, around: Around) -> Shape:
         collar_y=OPPOSED if side else ALIGNED,
         collar_z=ALIGNED,
         solve_abdomen=True,
-        sagittal=1.4 * a,
+        sagittal=1.2 * a,
         coronal=-0.5 * around.left * a,
         transverse_rad=-0.35 * side * a,
         collar_y_rad=-0.2 * side * a,
-        pelvis_x_rad=0.2 * a,
+        pelvis_x_rad=0.15 * a,
         pelvis_y_rad=-0.2 * side * a,
-        balance_z=0.7 * around.ahead * a,
-        balance_x=0.5 * around.left * a,
+        balance_z=0.6 * around.ahead * a,
+        balance_x=0.4 * around.left * a,
         swivel_left_rad=0.3 * a,
         swivel_right_rad=0.3 * a,
-        gaze=min(abs(a), 1.0),
+        gaze=0.85 * min(abs(a), 1.0),
     )
 
 
