@@ -26,7 +26,6 @@ STYLE: dict[str, Any] = {
     "font.family": "STIXGeneral",
     "mathtext.fontset": "stix",
     "text.hinting": "none",
-    "text.hinting_factor": 1,
     "svg.fonttype": "none",
     "pdf.fonttype": 42,
     "svg.hashsalt": "brace",
