@@ -35,7 +35,7 @@ def get_up(world, tick):
 
 def mean_speed_mps(world, row: int) -> float:
     """How fast the body moves under the physics: root mean square over its mass."""
-    share = world.assets.libraries[row].index.share
+    share = world.assets.libraries[row].motions.share
     speed = window_since_blow(world, row).joints_mps[0]
     return math.sqrt(float((share * (speed**2).sum(axis=1)).sum()))
 
@@ -44,7 +44,7 @@ def rise_or_stay(world, row: int, tick: int) -> None:
     """Looks for a get-up. Without one, or with none near enough, the body stays down; that is said once."""
     settings, library = world.assets.settings.search, world.assets.libraries[row]
     found = best_window(
-        library.index, window_since_blow(world, row), "rising", settings.velocity_s, settings.candidates
+        library.motions, window_since_blow(world, row), "rising", settings.velocity_s, settings.candidates
     )
     if found is not None and found.distance_m <= settings.get_up_within_m:
         say_found(world, row, found, "get_up")

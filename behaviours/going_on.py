@@ -42,7 +42,7 @@ def take_up_own_clip(world, row: int, tick: int) -> None:
     """Blends to the window of the own clip that is nearest to the pose shown. Without one the last pose is held."""
     settings, library = world.assets.settings.search, world.assets.libraries[row]
     found = best_window(
-        library.index, shown_window(world, row), "standing", settings.velocity_s, settings.candidates, only_clip=0
+        library.motions, shown_window(world, row), "standing", settings.velocity_s, settings.candidates, only_clip=0
     )
     if found is None:
         return

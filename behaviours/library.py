@@ -30,7 +30,8 @@ def gather_libraries(
     scenario: Scenario, clips: tuple[Clip, ...], find: FindClip, settings: Settings
 ) -> tuple[tuple[Clip, ...], tuple[Library | None, ...]]:
     """All clips of the run, the characters' own (given) first, and one Library or None a character."""
-    every, libraries = list(clips), []
+    every = list(clips)
+    libraries: list[Library | None] = []
     for row, spec in enumerate(scenario.character):
         if spec.recover == "same":
             libraries.append(None)

@@ -9,10 +9,10 @@ from __future__ import annotations
 
 import contextlib
 import hashlib
-import inspect
 import zipfile
 from dataclasses import dataclass, field
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 from numba import njit
@@ -140,7 +140,7 @@ def _joints_over_time(root_m, rotations, fps, loop, offset_m, time_s, joints_m):
 def _key(clips: tuple[Clip, ...], ahead_s: float, least_left_s: float) -> str:
     """A name for what an index is made from: the clips in their order (bodies and all), what decides, and this code."""
     content = hashlib.sha256(f"{ahead_s!r} {least_left_s!r}".encode())
-    content.update(inspect.getsource(inspect.getmodule(_key)).encode())
+    content.update(Path(__file__).read_bytes())
     for clip in clips:
         content.update(clip.key.encode())
     return content.hexdigest()
@@ -160,7 +160,7 @@ def _load(key: str) -> dict[str, np.ndarray] | None:
         return None
 
 
-def _save(key: str, arrays: dict[str, np.ndarray]) -> None:
+def _save(key: str, arrays: dict[str, Any]) -> None:
     """Keeps it. A cache that cannot be written is no fault."""
     path = _path(key)
     if path.is_file():

@@ -26,7 +26,7 @@ if TYPE_CHECKING:
 class Library(NamedTuple):
     """What one character may go on with: the index, and the row of world.assets.clips of each of its clips."""
 
-    index: MotionIndex
+    motions: MotionIndex
     clip_rows: tuple[int, ...]
 
 
@@ -68,7 +68,9 @@ def best_window(
 
     def counts(rows: np.ndarray) -> np.ndarray:
         clip = index.clip[rows]
-        return np.not_equal(clip, but_clip) if only_clip is None else np.equal(clip, only_clip)
+        if only_clip is not None:
+            return np.equal(clip, only_clip)
+        return np.not_equal(clip, -1 if but_clip is None else but_clip)
 
     rows = likely_rows(index, window, kind, velocity_s, candidates, counts)
     if len(rows) == 0:
@@ -146,7 +148,7 @@ def choose_return(world, row: int) -> None:
     recover, library = Recover(int(world[Struck].recover[row])), world.assets.libraries[row]
     if recover == Recover.SAME or library is None:
         return
-    settings, index = world.assets.settings.search, library.index
+    settings, index = world.assets.settings.search, library.motions
     window = window_since_blow(world, row)
     size_m = reaction_size_m(world, row, window, index.share, settings.velocity_s)
     if recover == Recover.AUTO and size_m <= settings.auto_over_m:
@@ -176,7 +178,7 @@ def say_found(world, row: int, found: Found, chosen: str, **more: float) -> None
         "searched",
         world.entity(row),
         chosen=chosen,
-        windows=len(library.index.clip),
+        windows=len(library.motions.clip),
         compared=found.compared,
         clip=world.assets.clips[library.clip_rows[found.clip]].name,
         window_ends_s=found.time_s,

@@ -32,8 +32,8 @@ def difference(window_m, window_mps, joints_m, joints_mps, row, share, velocity_
 
     window_m, window_mps: (S, J, 3), world, the latest sample first; joints_m, joints_mps: (N, J, 3) of the index, one
     sample a row, so that the window there is rows `row`, `row - 1`, ... share (J,) sums to 1; a velocity counts as
-    the distance it goes in velocity_s. Turning the index's window by the yaw and shifting it by (x, y) lays it best over the
-    other: both in closed form (as Kovar, Gleicher and Pighin 2002, eq. 2, here with velocities).
+    the distance it goes in velocity_s. Turning the index's window by the yaw and shifting it by (x, y) lays it best
+    over the other: both in closed form (as Kovar, Gleicher and Pighin 2002, eq. 2, here with velocities).
     """
     samples = len(window_m)
     total = px = py = qx = qy = 0.0

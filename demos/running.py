@@ -46,7 +46,7 @@ def journal_of(simulation: Simulation, folder: Path) -> Journal:
         "folder": str(folder),
         # own clips first; then what a search looked through
         "clips": [clip.key for clip in simulation.world.assets.clips],
-        "indexes": [library.index.key for library in simulation.world.assets.libraries if library],
+        "indexes": [library.motions.key for library in simulation.world.assets.libraries if library],
     }
     return new_journal(header, simulation.world)
 
@@ -74,7 +74,7 @@ def replayed(journal: Journal, where: str) -> tuple[Simulation, Recorder]:
     for clip, key in zip(assets.clips, keys, strict=False):
         if clip.key != key:
             raise BadInput("recording", f"the clip {clip.name!r} is not the one that was recorded with", where)
-    if len(keys) != len(assets.clips) or indexes != [library.index.key for library in assets.libraries if library]:
+    if len(keys) != len(assets.clips) or indexes != [library.motions.key for library in assets.libraries if library]:
         raise BadInput("recording", "the library that is searched is not the one that was recorded with", where)
     return simulation, replay(simulation.world, simulation.step, apply_command, journal)
 

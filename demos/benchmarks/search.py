@@ -28,7 +28,8 @@ def prepare() -> Benchmark:
     window = Window(index.joints_m[back[len(rows) // 3]] + off_m, index.joints_mps[back[len(rows) // 3]] + 10 * off_mps)
 
     def ours():
-        return best_window(index, window, "standing", search.velocity_s, search.candidates).distance_m
+        found = best_window(index, window, "standing", search.velocity_s, search.candidates)
+        return found.distance_m if found else np.inf
 
     sample = np.array([sample_weight(k, SAMPLES) for k in range(SAMPLES)])
     weight = (sample / sample.sum())[:, None] * index.share
