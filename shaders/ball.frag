@@ -40,7 +40,7 @@ void main() {
     if (paint.x < 0.5) albedo = volleyball(p, seam);
     else albedo = mix(vec3(0.55, 0.10, 0.07), vec3(0.80, 0.74, 0.66), smoothstep(-1.0, 1.0, (abs(p.z) - 0.32) / max(fwidth(p.z), 1e-4)));
     float shadow = paint.y < 0.999 ? 1.0 : key_light_at(world_m, normal, 1.6);
-    vec3 light = lit_surface(albedo * mix(0.22, 1.0, seam), normal, to_eye, to_light.xyz, shadow, 0.25);
+    vec3 light = lit_surface(albedo * mix(0.22, 1.0, seam), normal, to_eye, to_light.xyz, shadow, 0.25, 1.0);
     pixel = vec4(displayed(light), paint.y);
 }
 #endif

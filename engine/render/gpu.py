@@ -69,7 +69,13 @@ class Instances:
 
 
 def _floats(layout: str) -> int:
-    return sum(int(item[:-1]) for item in layout.split())
+    return sum(_bytes(item) for item in layout.split()) // 4
+
+
+def _bytes(item: str) -> int:
+    """Of one attribute such as 3f or 4u1."""
+    count, kind = int(item[0]), item[1:]
+    return count * {"f": 4, "u1": 1, "f1": 1}[kind]
 
 
 def _only_read(program, layout: str, names) -> tuple[str, list[str]] | None:
@@ -80,7 +86,7 @@ def _only_read(program, layout: str, names) -> tuple[str, list[str]] | None:
             items.append(item)
             read.append(name)
         else:
-            items.append(f"{4 * int(item[:-1])}x")
+            items.append(f"{_bytes(item)}x")
     return (" ".join(items), read) if read else None
 
 

@@ -35,6 +35,7 @@ class Figure:
     orientations: np.ndarray  # (21, 4) w x y z
     colour: Colour = PERSON
     alpha: float = 1.0  # below 1: a ghost, seen through and without shadow
+    style: str = "smooth"  # or "jointed": a mannequin of rigid parts
 
 
 @dataclass(frozen=True)

@@ -7,10 +7,13 @@ Blends after Inigo Quilez (polynomial smooth minimum); meshing is naive surface 
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Callable
 from typing import NamedTuple
 
 import numpy as np
+
+from engine.maths import quaternion
 
 Field = Callable[[np.ndarray], np.ndarray]  # points (N, 3) -> (N,), negative inside
 
@@ -110,6 +113,28 @@ def shifted(shape: Shape, by: np.ndarray) -> Shape:
     return Shape(lambda points: shape.field(points - by), shape.low + by, shape.high + by)
 
 
+def placed(shape: Shape, at, turned) -> Shape:
+    """The shape of a frame, seen from where that frame is `at` (3,) and `turned` (4,) w x y z."""
+    at, axes = np.asarray(at, float), np.array([quaternion.rotate(tuple(turned), axis) for axis in np.eye(3)])
+    corners = np.array(list(itertools.product(*zip(shape.low, shape.high, strict=True)))) @ axes + at
+    return Shape(lambda points: shape.field((points - at) @ axes.T), corners.min(axis=0), corners.max(axis=0))
+
+
+def near_only(shape: Shape, reach_m: float) -> Shape:
+    """The same shape within a reach of its box; farther out its field is only the way to the box, which costs little.
+
+    For what is blended over less than that reach nothing changes.
+    """
+
+    def field(points):
+        away = np.linalg.norm(np.maximum(np.maximum(shape.low - points, points - shape.high), 0.0), axis=1)
+        near = away < reach_m
+        away[near] = shape.field(points[near])
+        return away
+
+    return Shape(field, shape.low, shape.high)
+
+
 def half_space(point, outward) -> Field:
     """Everything behind a plane; as a cutter it removes that side."""
     point, outward = np.asarray(point, float), np.asarray(outward, float)
@@ -123,14 +148,33 @@ def mesh(shape: Shape, cell_m: float) -> Mesh:
     grid = np.stack(np.meshgrid(*[np.arange(n) for n in counts], indexing="ij"), axis=-1)
     values = shape.field(low + cell_m * grid.reshape(-1, 3)).reshape(tuple(counts))
     rows, vertices = _cell_vertices(values)
-    vertices = low + cell_m * vertices
-    for _ in range(3):
-        value, gradient = _value_and_gradient(shape.field, vertices)
-        step = value[:, None] * gradient / np.maximum(np.sum(gradient**2, axis=1), 1e-6)[:, None]
-        vertices = vertices - np.clip(step, -0.5 * cell_m, 0.5 * cell_m)
-    _, gradient = _value_and_gradient(shape.field, vertices)
-    normals = gradient / np.maximum(np.linalg.norm(gradient, axis=1), 1e-9)[:, None]
+    vertices, normals = on_surface(shape.field, low + cell_m * vertices, np.full(len(vertices), cell_m))
     return Mesh(vertices, normals, _triangles(values < 0.0, rows))
+
+
+def on_surface(field: Field, points: np.ndarray, cell_m: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Points (N, 3) drawn onto the zero set along the gradient, half their cells (N,) a step at most; and the normals."""
+    reach = 0.5 * cell_m[:, None]
+    for _ in range(3):
+        value, gradient = _value_and_gradient(field, points)
+        step = value[:, None] * gradient / np.maximum(np.sum(gradient**2, axis=1), 1e-6)[:, None]
+        points = points - np.clip(step, -reach, reach)
+    _, gradient = _value_and_gradient(field, points)
+    return points, gradient / np.maximum(np.linalg.norm(gradient, axis=1), 1e-9)[:, None]
+
+
+def seen_from_surface(field: Field, points: np.ndarray, normals: np.ndarray) -> np.ndarray:
+    """(N,) about how much of what is around can be seen from surface points: 1 in the open, less in folds.
+
+    Steps out along the normal: where the way back to the surface is shorter than the way out, something is near
+    (Evans, *Fast Approximations for Global Illumination on Dynamic Scenes*, 2006).
+    """
+    hidden, weight = np.zeros(len(points)), 0.0
+    for out_m in (0.006, 0.014, 0.030, 0.060):
+        share = 1.0 / out_m**0.5
+        hidden += share * np.clip(1.0 - field(points + out_m * normals) / out_m, 0.0, 1.0)
+        weight += share
+    return 1.0 - hidden / weight
 
 
 def without_buried(piece: Mesh, covers: list[Shape], depth_m: float = 0.004) -> Mesh:

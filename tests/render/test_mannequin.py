@@ -1,4 +1,4 @@
-"""The sculpture: closed surfaces, the subject's own proportions, left and right alike."""
+"""The jointed figure and the sculptor's tools: closed surfaces, the subject's own proportions, left and right alike."""
 
 from __future__ import annotations
 
@@ -9,8 +9,14 @@ import pytest
 
 from engine.body import skeleton as sk
 from engine.body.anthropometry import make_body, standard_body
-from engine.render.mannequin import mannequin_mesh, mannequin_parts, rest_positions, stature_m
-from engine.render.sculpture.parts import JOINT, VISOR
+from engine.render.mannequin import (
+    REFERENCE_STATURE_M,
+    mannequin_mesh,
+    mannequin_parts,
+    rest_positions,
+    scaled,
+    stature_m,
+)
 from engine.render.surface import ball, blend, carve, ellipsoid, half_space, mesh, taper, without_buried
 
 
@@ -64,7 +70,7 @@ def test_burying_drops_only_what_lies_inside():
 @pytest.mark.parametrize("body", [standard_body(), standard_body(1.55, "female"), standard_body(1.95)])
 @pytest.mark.parametrize("coarser", [1.0, 2.0])
 def test_every_part_is_closed_and_where_its_field_says(body, coarser):
-    for part in mannequin_parts(body):
+    for part in mannequin_parts(scaled(body, REFERENCE_STATURE_M / stature_m(body))):
         piece = mesh(part.shape, min(coarser * part.cell_m, part.coarsest_m))
         assert _closed(piece)
         assert _area_and_volume(piece)[1] > 0
@@ -75,7 +81,7 @@ def test_every_part_is_closed_and_where_its_field_says(body, coarser):
 @pytest.mark.parametrize("height_m", [1.5, 1.75, 2.0])
 def test_it_is_as_tall_as_the_body_and_stands_on_its_soles(height_m):
     body = standard_body(height_m)
-    heights = _standing(body)[:, 2]
+    heights = mannequin_mesh(body, style="jointed").positions[:, 2]
     assert stature_m(body) == pytest.approx(height_m, abs=0.02)
     assert np.ptp(heights) == pytest.approx(height_m, abs=0.02)
     rest = rest_positions(body)
@@ -85,8 +91,8 @@ def test_it_is_as_tall_as_the_body_and_stands_on_its_soles(height_m):
 
 def test_proportions_are_a_persons():
     body = standard_body()
-    mesh_, where = mannequin_mesh(body), _standing(body)
-    joint = mesh_.tags[:, 0]
+    mesh_ = mannequin_mesh(body, style="jointed")
+    where, joint = mesh_.positions, mesh_.joints[:, 0]
     width = {
         name: np.ptp(where[np.isin(joint, rows), 1])
         for name, rows in {"trunk": (2,), "hips": (0, 13, 17), "head": (4,)}.items()
@@ -99,10 +105,9 @@ def test_proportions_are_a_persons():
 
 
 def test_the_face_looks_ahead():
-    body = standard_body()
-    mesh_ = mannequin_mesh(body)
-    head = mesh_.vertices[mesh_.tags[:, 0] == sk.HEAD]
-    visor = mesh_.vertices[mesh_.tags[:, 1] == VISOR]
+    mesh_ = mannequin_mesh(standard_body(), style="jointed")
+    head = mesh_.positions[mesh_.joints[:, 0] == sk.HEAD]
+    visor = mesh_.positions[mesh_.paint_m[:, 1] < 0]
     nose = head[head[:, 0].argmax()]
     assert abs(nose[1]) < 0.008
     assert visor[:, 0].min() > head[:, 0].min() + 0.10
@@ -121,30 +126,26 @@ def test_a_longer_forearm_makes_a_longer_forearm_and_nothing_else():
     body = standard_body()
     offset = body.offset_m.copy()
     offset[sk.LEFT_WRIST] *= 1.2
-    longer = mannequin_mesh(make_body(offset))
-    before = mannequin_mesh(body)
+    longer, before = (_spans(mannequin_mesh(made, style="jointed")) for made in (make_body(offset), body))
     for joint in range(sk.JOINT_COUNT):
-        spans = [np.ptp(m.vertices[m.tags[:, 0] == joint], axis=0)[2] for m in (before, longer)]
-        assert spans[1] == pytest.approx(spans[0] * (1.2 if joint == sk.LEFT_ELBOW else 1.0), rel=0.06)
+        assert longer[joint][2] == pytest.approx(before[joint][2] * (1.2 if joint == sk.LEFT_ELBOW else 1.0), rel=0.06)
 
 
 def test_coarser_meshes_have_far_fewer_triangles_and_the_same_outline():
-    fine, coarse = (mannequin_mesh(standard_body(), coarser) for coarser in (1.0, 1.8))
+    fine, coarse = (mannequin_mesh(standard_body(), coarser, "jointed") for coarser in (1.0, 1.8))
     assert len(coarse.triangles) < 0.4 * len(fine.triangles)
-    for joint in range(sk.JOINT_COUNT):
-        spans = [np.ptp(m.vertices[m.tags[:, 0] == joint], axis=0) for m in (fine, coarse)]
-        assert spans[1] == pytest.approx(spans[0], rel=0.07)
+    assert _spans(coarse) == pytest.approx(_spans(fine), rel=0.07)
 
 
 def test_joints_have_balls_that_the_next_bone_turns_in():
-    mesh_ = mannequin_mesh(standard_body())
+    body = standard_body()
+    mesh_ = mannequin_mesh(body, style="jointed")
     for joint in (*sk.ELBOWS, *sk.KNEES, *sk.ANKLES, *sk.WRISTS):
-        near = mesh_.vertices[(mesh_.tags[:, 0] == joint) & (mesh_.tags[:, 1] == JOINT)]
-        distances = np.linalg.norm(near, axis=1)
+        near = mesh_.positions[(mesh_.joints[:, 0] == joint) & (mesh_.paint_m[:, 0] < 0)]
+        distances = np.linalg.norm(near - rest_positions(body)[joint], axis=1)
         assert np.ptp(distances) < 0.012
 
 
-def _standing(body) -> np.ndarray:
-    """(V, 3) vertices in the identity pose, pelvis at the origin."""
-    mesh_ = mannequin_mesh(body)
-    return mesh_.vertices + rest_positions(body)[mesh_.tags[:, 0].astype(int)]
+def _spans(mesh_) -> np.ndarray:
+    """(21, 3) sizes of what each joint carries, metres."""
+    return np.array([np.ptp(mesh_.positions[mesh_.joints[:, 0] == joint], axis=0) for joint in range(sk.JOINT_COUNT)])

@@ -15,7 +15,7 @@ from engine.render import shader_source
 from engine.render.camera import orbit_camera, project
 from engine.render.context import check_gl
 from engine.render.frame import TO_LIGHT, fit_shadow
-from engine.render.passes.figures import world_from_joint
+from engine.render.passes.figures import dual_quaternions
 from engine.render.scene import CLIP_BLUE, Ball, FloorStyle, Scene, extent_points
 from engine.render.shader_source import make_program
 from tests.render.people import PROTECT, STAND, person
@@ -140,13 +140,14 @@ def test_the_shadow_map_holds_every_caster_at_a_steady_scale():
     assert steps == pytest.approx(np.round(steps), abs=1e-6)  # whole texels: edges do not crawl
 
 
-def test_joint_matrices_agree_with_quaternion_rotation():
+def test_dual_quaternions_hold_turn_and_shift():
     figure = person(PROTECT)
-    matrices = world_from_joint(figure.positions[None], figure.orientations[None])[0]
+    real, dual = np.moveaxis(dual_quaternions(figure.positions, figure.orientations).astype(float), 1, 0)
+    assert np.sum(real * dual, axis=1) == pytest.approx(0.0, abs=1e-6)  # what makes a dual quaternion a unit one
     for joint in range(21):
-        point = np.array([0.1, -0.2, 0.3])
-        expected = figure.positions[joint] + quaternion.rotate(figure.orientations[joint], point)
-        assert matrices[joint] @ np.append(point, 1.0) == pytest.approx(expected, abs=1e-6)
+        undone = quaternion.conjugate(tuple(real[joint]))
+        shift = 2.0 * np.array(quaternion.multiply(tuple(dual[joint]), undone))
+        assert shift[1:] == pytest.approx(figure.positions[joint], abs=1e-6)
 
 
 def test_bodies_are_uploaded_once_and_shared(renderer):

@@ -15,28 +15,31 @@ ELBOW_BALL, WRIST_BALL = 0.0385, 0.0265
 def arm_parts(body: Body, side: int) -> list[Part]:
     """Everything from the shoulder to the fingertips of one side."""
     elbow, wrist = sk.ELBOWS[side], sk.WRISTS[side]
+    upper, lower = body.offset_m[elbow], body.offset_m[wrist]
+    above = cut(upper_arm(upper, outwards(side)), upper, short_m=0.017, round_m=0.014)
+    below = cut(forearm(lower, outwards(side)), lower, short_m=0.012, round_m=0.012, start_m=0.017)
     return [
-        Part(sk.SHOULDERS[side], SHELL, _upper_arm(body.offset_m[elbow], outwards(side)), 0.017),
+        Part(sk.SHOULDERS[side], SHELL, above, 0.017),
         Part(elbow, JOINT, ball((0, 0, 0), ELBOW_BALL), 0.0135),
-        Part(elbow, SHELL, _forearm(body.offset_m[wrist], outwards(side)), 0.0145),
+        Part(elbow, SHELL, below, 0.0145),
         Part(wrist, JOINT, ball((0, 0, 0), WRIST_BALL), 0.011),
         Part(wrist, SHELL, _hand(body.palm_m[side], body.fingertip_m[side], -outwards(side)), 0.0085, 0.0125),
     ]
 
 
-def _upper_arm(bone: np.ndarray, out: float) -> Shape:
+def upper_arm(bone: np.ndarray, out: float) -> Shape:
     """Deltoid, biceps and triceps around a tapering arm."""
     arm = taper((0, 0.008 * out, -0.004), 0.97 * bone, 0.052, 0.0385)
     deltoid = ellipsoid(0.16 * bone + (0, 0.010 * out, 0), (0.054, 0.047, 0.075))
     biceps = ellipsoid(0.48 * bone + (0.008, 0.002 * out, 0), (0.044, 0.042, 0.085))
-    return cut(blend(0.03, arm, deltoid, biceps), bone, short_m=0.017, round_m=0.014)
+    return blend(0.03, arm, deltoid, biceps)
 
 
-def _forearm(bone: np.ndarray, out: float) -> Shape:
+def forearm(bone: np.ndarray, out: float) -> Shape:
     """It swells below the elbow and thins to the wrist."""
     arm = taper(0.04 * bone, 0.98 * bone, 0.038, 0.0262, flat=(1.06, 1.0, 1.0))
     swell = ellipsoid(0.27 * bone + (0.006, 0.004 * out, 0), (0.042, 0.039, 0.085))
-    return cut(blend(0.03, arm, swell), bone, short_m=0.012, round_m=0.012, start_m=0.017)
+    return blend(0.03, arm, swell)
 
 
 def _hand(palm: np.ndarray, tip: np.ndarray, inward: float) -> Shape:

@@ -15,32 +15,35 @@ KNEE_BALL, ANKLE_BALL = 0.0515, 0.0365
 def leg_parts(body: Body, side: int) -> list[Part]:
     """Everything from the hip to the toes of one side."""
     knee, ankle = sk.KNEES[side], sk.ANKLES[side]
-    foot, toes = _foot_and_toes(body.sole_m[side], body.offset_m[sk.TOES[side]])
+    upper, lower = body.offset_m[knee], body.offset_m[ankle]
+    above = cut(thigh(upper, outwards(side)), upper, short_m=0.024, round_m=0.018)
+    below = cut(shin(lower, outwards(side)), lower, short_m=0.020, round_m=0.014, start_m=0.024)
+    foot, toes = foot_and_toes(body.sole_m[side], body.offset_m[sk.TOES[side]])
     return [
-        Part(sk.HIPS[side], SHELL, _thigh(body.offset_m[knee], outwards(side)), 0.022),
+        Part(sk.HIPS[side], SHELL, above, 0.022),
         Part(knee, JOINT, ball((0.004, 0, 0), KNEE_BALL), 0.016),
-        Part(knee, SHELL, _shin(body.offset_m[ankle], outwards(side)), 0.017),
+        Part(knee, SHELL, below, 0.017),
         Part(ankle, JOINT, ball((0, 0, 0), ANKLE_BALL), 0.014),
         Part(ankle, SHOE, foot, 0.012),
         Part(sk.TOES[side], SHOE, toes, 0.012),
     ]
 
 
-def _thigh(bone: np.ndarray, out: float) -> Shape:
+def thigh(bone: np.ndarray, out: float) -> Shape:
     """A long taper, fuller in front."""
     leg = taper((0.0, -0.002 * out, -0.015), 0.98 * bone, 0.081, 0.0505)
     quadriceps = ellipsoid(0.42 * bone + (0.018, 0.006 * out, 0), (0.066, 0.066, 0.15))
-    return cut(blend(0.04, leg, quadriceps), bone, short_m=0.024, round_m=0.018)
+    return blend(0.04, leg, quadriceps)
 
 
-def _shin(bone: np.ndarray, out: float) -> Shape:
+def shin(bone: np.ndarray, out: float) -> Shape:
     """A shin with its calf behind."""
     leg = taper(0.03 * bone, 0.98 * bone, 0.0485, 0.0335)
     calf = ellipsoid(0.30 * bone + (-0.020, 0.004 * out, 0), (0.050, 0.050, 0.115))
-    return cut(blend(0.03, leg, calf), bone, short_m=0.020, round_m=0.014, start_m=0.024)
+    return blend(0.03, leg, calf)
 
 
-def _foot_and_toes(sole: np.ndarray, to_toe: np.ndarray) -> tuple[Shape, Shape]:
+def foot_and_toes(sole: np.ndarray, to_toe: np.ndarray) -> tuple[Shape, Shape]:
     """A heel, an instep and a ball on the ankle, and toes on theirs; both stand flat on the Body's own sole points."""
     heel, ball_of_foot, tip = (0.5 * (sole[2 * k] + sole[2 * k + 1]) for k in range(3))
     heel_half = max(0.5 * abs(sole[0][1] - sole[1][1]) + 0.006, 0.028)

@@ -33,15 +33,26 @@ class Trunk(NamedTuple):
 
 def trunk_parts(body: Body, rest: np.ndarray) -> list[Part]:
     """Everything between hips and head. rest: (21, 3) joints of the identity pose, the pelvis at the origin."""
-    trunk = Trunk(rest, 0.5 * (rest[sk.LEFT_HIP] + rest[sk.RIGHT_HIP]), neck_root(rest))
-    throat = taper((-0.004, 0, -0.03), body.offset_m[sk.HEAD] + (0.0, 0, 0.01), 0.061, 0.055)
+    trunk = trunk_of(rest)
+    bowl = carve(0.03, pelvis(trunk), half_space(trunk.at(0.315), (0, 0, -1.0)))
+    cage = carve(0.03, ribs(trunk), half_space(trunk.at(0.405), (0, 0, 1.0)))
     return [
-        Part(sk.PELVIS, SHELL, _pelvis(trunk), 0.0205),
-        Part(sk.WAIST, JOINT, shifted(_midriff(trunk), -rest[sk.WAIST]), 0.030),
-        Part(sk.BACK, SHELL, shifted(_ribs(trunk), -rest[sk.BACK]), 0.0195),
-        Part(sk.NECK, JOINT, throat, 0.014),
-        *[Part(sk.CLAVICLES[side], SHELL, _yoke(body, side), 0.021) for side in (sk.LEFT, sk.RIGHT)],
+        Part(sk.PELVIS, SHELL, bowl, 0.0205),
+        Part(sk.WAIST, JOINT, shifted(midriff(trunk), -rest[sk.WAIST]), 0.030),
+        Part(sk.BACK, SHELL, shifted(cage, -rest[sk.BACK]), 0.0195),
+        Part(sk.NECK, JOINT, throat(body), 0.014),
+        *[Part(sk.CLAVICLES[side], SHELL, yoke(body, side), 0.021) for side in (sk.LEFT, sk.RIGHT)],
     ]
+
+
+def trunk_of(rest: np.ndarray) -> Trunk:
+    """The landmarks of a body whose joints (21, 3) are there in the identity pose."""
+    return Trunk(rest, 0.5 * (rest[sk.LEFT_HIP] + rest[sk.RIGHT_HIP]), neck_root(rest))
+
+
+def throat(body: Body, slim: float = 1.0) -> Shape:
+    """In the neck's frame."""
+    return taper((-0.004, 0, -0.03), body.offset_m[sk.HEAD] + (0.0, 0, 0.01), 0.061 * slim, 0.055 * slim)
 
 
 def neck_root(rest: np.ndarray) -> np.ndarray:
@@ -52,22 +63,27 @@ def neck_root(rest: np.ndarray) -> np.ndarray:
     return neck + share * (head - neck)
 
 
-def _pelvis(trunk: Trunk) -> Shape:
+def pelvis(trunk: Trunk) -> Shape:
     """A bowl, a belt above it, and the seat."""
     hip_half = abs(trunk.rest[sk.LEFT_HIP][1] - trunk.hips[1])
     bowl = ellipsoid(trunk.at(0.08, 0.002), (0.098, max(0.152, hip_half + 0.062), 0.155 * trunk.height), 2.2)
     belt = taper(trunk.at(0.10, 0.004), trunk.at(0.34, 0.006), 0.132, 0.126, flat=(0.70, 1.0, 0.9))
     seat = both_sides(ball(trunk.at(0.0, -0.045, 0.068), 0.082))
-    return carve(0.03, blend(0.05, bowl, belt, seat), half_space(trunk.at(0.315), (0, 0, -1.0)))
+    return blend(0.05, bowl, belt, seat)
 
 
-def _midriff(trunk: Trunk) -> Shape:
+def midriff(trunk: Trunk) -> Shape:
     """The soft part that shows between the two shells when the trunk bends."""
     return ellipsoid(trunk.at(0.36, 0.006), (0.080, 0.114, 0.185 * trunk.height), 2.1)
 
 
-def _ribs(trunk: Trunk) -> Shape:
-    """Rib cage, chest, shoulder blades and the slopes to the neck, cut off above the midriff."""
+def abdomen(trunk: Trunk) -> Shape:
+    """The waist of a body in one piece, between rib cage and pelvis."""
+    return taper(trunk.at(0.26, 0.004), trunk.at(0.54, 0.008), 0.112, 0.114, flat=(0.70, 1.0, 0.8))
+
+
+def ribs(trunk: Trunk) -> Shape:
+    """Rib cage, chest, shoulder blades and the slopes to the neck."""
     shoulder = trunk.rest[sk.LEFT_SHOULDER]
     breadth = 0.5 * (0.146 + 0.80 * abs(shoulder[1] - trunk.neck[1]))
     cage = taper(trunk.at(0.74, 0.002), trunk.at(0.48, 0.012), breadth, 0.86 * breadth, flat=(0.74, 1.0, 0.94))
@@ -75,11 +91,10 @@ def _ribs(trunk: Trunk) -> Shape:
     blade = ellipsoid(trunk.at(0.80, -0.042, 0.075), (0.060, 0.076, 0.10))
     root = trunk.neck + (-0.010, 0.026, -0.016)
     trapezius = taper(root, root + 0.62 * (shoulder - root) + (0, 0, 0.004), 0.046, 0.044)
-    whole = blend(0.06, cage, *map(both_sides, (chest, blade, trapezius)))
-    return carve(0.03, whole, half_space(trunk.at(0.405), (0, 0, 1.0)))
+    return blend(0.06, cage, *map(both_sides, (chest, blade, trapezius)))
 
 
-def _yoke(body: Body, side: int) -> Shape:
+def yoke(body: Body, side: int) -> Shape:
     """What moves with the clavicle and closes the gap between rib cage and arm."""
     shoulder = body.offset_m[sk.SHOULDERS[side]]
     tip = shoulder + (0.0, -0.012 * outwards(side), -0.002)
