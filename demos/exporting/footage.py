@@ -12,6 +12,7 @@ from behaviours.components import Feet, Flight, Phase, Reaction
 from behaviours.playing import body_of
 from behaviours.simulation import Simulation
 from demos.frames import frame_count, frames_of
+from demos.running import with_progress
 from demos.stage import shown_pose
 from engine.body.skeleton import JOINT_COUNT, Body, Pose
 from engine.core.clock import TICK_RATE_HZ
@@ -60,7 +61,8 @@ def film(simulation: Simulation, fps: float, title: str, advance: Callable[[], N
     poses = [Pose(np.empty((count, 3)), np.empty((count, JOINT_COUNT, 4))) for _ in rows]
     phases, planted = np.empty((len(rows), count), np.int64), np.empty((len(rows), count, 2), bool)
     balls: dict[int, _Ball] = {}
-    for frame, alpha in enumerate(frames_of(world, advance or simulation.step, simulation.ticks, fps)):
+    frames = frames_of(world, advance or simulation.step, simulation.ticks, fps)
+    for frame, alpha in enumerate(with_progress(frames, "simulating", count)):
         for row, pose in zip(rows, poses, strict=True):
             pose.root_m[frame], pose.rotations[frame] = shown_pose(world, row, alpha)
         phases[:, frame], planted[:, frame] = world[Reaction].phase[list(rows)], world[Feet].planted[list(rows)]
