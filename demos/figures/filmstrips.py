@@ -27,9 +27,9 @@ EXTREME: dict[str, Any] = {
     "speed_mps": 29.0,
     "size": 1.0,
     "size_means": "radius",
-    "mass_kg": 10.0,
+    "mass_kg": 4.0,
 }
-KNOCK_DOWN = {**EXTREME, "target": "pelvis"}
+KNOCK_DOWN: dict[str, Any] = {**EXTREME, "target": "pelvis", "mass_kg": 10.0}
 GET_UPS = ("getup_faceup", "getup_facedown")
 
 
@@ -40,7 +40,7 @@ def draw(press: Press) -> Sheet:
         ("the same motion", take(press, scenario("same", MILD))),
         ("a new motion, mild blow", take(press, scenario("new", MILD))),
         (
-            f"a new motion, extreme blow ({number(EXTREME['mass_kg'], 0)} kg)",
+            f"a new motion, extreme blow ({number(extreme['mass_kg'], 0)} kg)",
             take(press, scenario("new", extreme, 9.0)),
         ),
     )

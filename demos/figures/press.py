@@ -10,7 +10,7 @@ from engine.clips.library import find_clip, list_clips
 from engine.render.renderer import Renderer
 from engine.render.scene import Scene
 
-LAYERED_EDGE = 16.0
+LAYERED_EDGE, LAYERED_MARGIN = 16.0, 0.045
 STAND_IN = "sway"  # embedded: always there
 
 
@@ -58,7 +58,7 @@ class Press:
         points = seen_points(scenes, more_m, shadows)
         if cut_m is not None:
             points = points[points[:, 2] >= cut_m]
-        camera, size = framed(look, points, width)
+        camera, size = framed(look, points, width, LAYERED_MARGIN)
         stills = [photograph(self.renderer, scene, camera, size, self.scale, LAYERED_EDGE) for scene in scenes]
         for still in stills[1:]:
             lay_over(stills[0].pixels, still.pixels, 0, join_shadows=True)

@@ -77,5 +77,5 @@ def _angle(sheet: Sheet, still, corner, m) -> None:
         sheet.circle((x, y), 4, fill="white", edge="ink", line=1.6)
         sheet.text(x + (8 if align == "left" else -8), y - 3, name, SMALL, align=align, valign="bottom", halo=True)
     degrees = math.degrees(arm_swivel(positions, orientations, LEFT))
-    x, y = place([0.5 * angle], 1.0 + 22.0 / max(np.hypot(*(place([angle])[0] - middle)), 1.0))[0]
+    x, y = place([0.5 * angle], 1.0 + 36.0 / max(np.hypot(*(place([angle])[0] - middle)), 1.0))[0]
     sheet.text(x, y, f"{number(degrees, 0)}°", 19, ACCENT, "center", "center", halo=True)
