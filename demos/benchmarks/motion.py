@@ -51,7 +51,8 @@ class Case(NamedTuple):
     def __str__(self) -> str:
         return (
             f"case {self.number}: {self.clip} at {self.start_s:.2f} s, {self.target} from {self.azimuth_deg:.0f} deg, "
-            f"{self.elevation_deg:.0f} deg up, {self.speed_mps:.1f} m/s, size {self.size:.2f}{', startle' if self.startle else ''}"
+            f"{self.elevation_deg:.0f} deg up, {self.speed_mps:.1f} m/s, size {self.size:.2f}"
+            f"{', startle' if self.startle else ''}"
         )
 
 
@@ -91,10 +92,12 @@ def scenario_of(case: Case, *, mirrored: bool = False, protects: bool = True) ->
     return check_scenario({
         "duration_s": PERCEIVED_S + longest_ttc_s + AFTER_CONTACT_S,
         "character": [{
-            "clip": case.clip, "start_s": case.start_s, "startle": case.startle, "mirrored": mirrored, "protects": protects,
+            "clip": case.clip, "start_s": case.start_s, "startle": case.startle, "mirrored": mirrored,
+            "protects": protects,
         }],
         "threat": [{
-            "target": case.target, "perceived_s": PERCEIVED_S, "azimuth_deg": -case.azimuth_deg if mirrored else case.azimuth_deg,
+            "target": case.target, "perceived_s": PERCEIVED_S,
+            "azimuth_deg": -case.azimuth_deg if mirrored else case.azimuth_deg,
             "elevation_deg": case.elevation_deg, "speed_mps": case.speed_mps, "size": case.size,
         }],
     })  # fmt: skip
@@ -148,3 +151,27 @@ def asymmetry_m(track, mirrored) -> float:
     ours = joints_of(track.body, track.pose)[0][:ticks]
     theirs = joints_of(mirrored.body, mirrored.pose)[0][:ticks, list(MIRRORED)] * [1.0, -1.0, 1.0]
     return float(np.abs(ours - theirs).max())
+
+
+def bench(count: int, seed: int = 1, progress=iter) -> list[dict[str, Any]]:
+    """All cases, run and measured."""
+    clips = find_clips()
+    return [run_case(case, clips) for case in progress(make_cases(clips, count, seed))]
+
+
+def write_worst(rows: list[dict[str, Any]], folder: Path) -> list[Path]:
+    """A filmstrip of the worst case of every figure, one picture a case."""
+    from demos.benchmarks.motion_table import figures_of
+    from demos.commands.capture import write_strip
+    from demos.filming import CAMERAS, Shot
+
+    clips, written = find_clips(), {}
+    for figure in figures_of(rows):
+        if figure.worst is None or figure.worst["case"].number in written:
+            continue
+        case = figure.worst["case"]
+        simulation = Simulation(scenario_of(case), lambda spec: clips[spec.clip])
+        path = folder / f"case_{case.number:03d}_{figure.name.split(',')[0].replace(' ', '_').replace(chr(39), '')}.png"
+        write_strip(path, simulation, Shot(size_px=(300, 380), camera=CAMERAS["quarter"]), frames=12)
+        written[case.number] = path
+    return list(written.values())

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+from pathlib import Path
 
 from demos.output import print_json, say
 from engine.core.errors import BadInput
@@ -17,6 +18,10 @@ def register(subparsers) -> None:
     )
     parser.add_argument("names", nargs="*", metavar="NAME", help="only these (all without any)")
     parser.add_argument("--json", action="store_true", help="the same for programs")
+    parser.add_argument("--motion", action="store_true", help="how good the motion is, over seeded threats at real clips")
+    parser.add_argument("--cases", type=int, default=200, metavar="N", help="with --motion: so many threats (200)")
+    parser.add_argument("--seed", type=int, default=1, help="with --motion: of the threats (1)")
+    parser.add_argument("--out", metavar="DIR", help="with --motion: the worst cases as filmstrips")
     parser.set_defaults(run=run)
 
 
@@ -24,6 +29,9 @@ def run(args: argparse.Namespace) -> None:
     from demos.benchmarks import NAMES, measure
     from demos.cli import nearest
 
+    if args.motion:
+        bench_motion(args)
+        return
     for name in args.names:
         if name not in NAMES:
             raise BadInput("name", f"unknown benchmark {name!r}; {nearest(name, NAMES)}")
@@ -40,6 +48,27 @@ def run(args: argparse.Namespace) -> None:
             f"{timing.what:<36} {seconds(timing.ours_s):>10} {seconds(timing.reference_s):>10} "
             f"{timing.times_faster:>7.1f}x  {timing.reference_name}"
         )
+
+
+def bench_motion(args: argparse.Namespace) -> None:
+    """The table of figures and their bars; with --out, its worst cases to look at."""
+    from demos.benchmarks.motion import bench, write_worst
+    from demos.benchmarks.motion_table import figures_of, lines_of
+    from demos.running import with_progress
+
+    if args.cases < 1:
+        raise BadInput("usage", f"--cases {args.cases}: expected at least 1")
+    rows = bench(args.cases, args.seed, lambda cases: with_progress(cases, "throwing", len(cases)))
+    if args.out:
+        folder = Path(args.out)
+        folder.mkdir(parents=True, exist_ok=True)
+        for path in write_worst(rows, folder):
+            say(f"wrote {path}")
+    if args.json:
+        figures = [figure._replace(worst=figure.worst and str(figure.worst["case"])) for figure in figures_of(rows)]
+        print_json({"cases": len(rows), "figures": [figure._asdict() for figure in figures]})
+        return
+    print("\n".join(lines_of(rows)))
 
 
 def seconds(value_s: float) -> str:
