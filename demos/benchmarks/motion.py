@@ -164,14 +164,20 @@ def write_worst(rows: list[dict[str, Any]], folder: Path) -> list[Path]:
     from demos.benchmarks.motion_table import figures_of
     from demos.commands.capture import write_strip
     from demos.filming import CAMERAS, Shot
+    from engine.render.context import make_context
+    from engine.render.renderer import Renderer
 
+    shot = Shot(size_px=(300, 380), camera=CAMERAS["quarter"])
     clips, written = find_clips(), {}
-    for figure in figures_of(rows):
-        if figure.worst is None or figure.worst["case"].number in written:
-            continue
-        case = figure.worst["case"]
-        simulation = Simulation(scenario_of(case), lambda spec: clips[spec.clip])
-        path = folder / f"case_{case.number:03d}_{figure.name.split(',')[0].replace(' ', '_').replace(chr(39), '')}.png"
-        write_strip(path, simulation, Shot(size_px=(300, 380), camera=CAMERAS["quarter"]), frames=12)
-        written[case.number] = path
+    with make_context(headless=True, size=shot.size_px) as context:
+        renderer = Renderer(context)
+        for figure in figures_of(rows):
+            if figure.worst is None or figure.worst["case"].number in written:
+                continue
+            case = figure.worst["case"]
+            simulation = Simulation(scenario_of(case), lambda spec: clips[spec.clip])
+            words = "_".join(figure.name.replace("'", "").split(",")[0].split())
+            path = folder / f"case_{case.number:03d}_{words}.png"
+            write_strip(renderer, path, simulation, shot, frames=12)
+            written[case.number] = path
     return list(written.values())
