@@ -16,9 +16,10 @@ from typing import Any
 import numpy as np
 
 from demos.exporting.footage import PHASE_NAMES, Footage
-from demos.exporting.surfaces import Surface, ball_surface, skin_of
+from demos.exporting.surfaces import PALETTE, Surface, ball_surface, skin_of
 from demos.stage import PHASE_COLOURS
-from engine.body.skeleton import PARENT, Body
+from engine.body.skeleton import PARENT
+from engine.render.mesh_cache import body_key
 from engine.render.scene import SUSTAINED_ORANGE
 
 HERE = Path(__file__).resolve().parent
@@ -27,6 +28,7 @@ EYE_HEIGHT_M = 0.95  # of what the camera looks at
 CALM_S = 0.25  # the camera's path is the mean over so long to either side
 NEAR_M = 2.5  # what is always in the light's reach about the camera's centre
 ALIGNMENT = 4
+PAINT_M = 0.03  # distances from an edge of paint are told up to here
 
 
 class Arrays:
@@ -63,7 +65,7 @@ def html_bytes(footage: Footage, camera: tuple[float, float, float]) -> bytes:
     head = {
         "title": footage.title, "fps": footage.fps, "frames": len(footage.time_s), "reach_m": reach_m,
         "camera": [azimuth, elevation, distance + 2.0 * (reach_m - NEAR_M)],
-        "centre": arrays.add(centre, "f4"),
+        "centre": arrays.add(centre, "f4"), "palette": [np.round(colour, 4).tolist() for colour in PALETTE],
         "meshes": [*meshes, _mesh(ball_surface(), arrays)], "people": people, "balls": balls,
         "phases": _phases(footage), "marks": footage.marks,
     }  # fmt: skip
@@ -104,16 +106,17 @@ def centre_of(footage: Footage) -> tuple[np.ndarray, float]:
 
 def _people(footage: Footage, arrays: Arrays) -> tuple[list[dict[str, Any]], list[dict[str, Any]]]:
     """The meshes, one for each different body, and the people with their motions."""
-    known: list[tuple[Body, Surface]] = []
+    known: dict[bytes, tuple[int, Surface]] = {}
     meshes, people = [], []
     for person in footage.people:
-        number = next((k for k, (body, _) in enumerate(known) if body is person.body), len(known))
-        if number == len(known):
-            known.append((person.body, skin_of(person.body, COARSER)))
-            meshes.append(_mesh(known[-1][1], arrays))
+        key = body_key(person.body)
+        if key not in known:
+            known[key] = (len(meshes), skin_of(person.body, COARSER))
+            meshes.append(_mesh(known[key][1], arrays))
+        number, surface = known[key]
         people.append({
             "name": person.name, "mesh": number, "parents": PARENT.tolist(),
-            "offsets": _listed(person.body.offset_m), "rest": _listed(known[number][1].rest),
+            "offsets": _listed(person.body.offset_m), "rest": _listed(surface.rest),
             "root": arrays.add(person.pose.root_m, "f4"),
             "turns": arrays.add(_shares(person.pose.rotations, 32767), "i2"),
         })  # fmt: skip
@@ -123,7 +126,8 @@ def _people(footage: Footage, arrays: Arrays) -> tuple[list[dict[str, Any]], lis
 def _mesh(surface: Surface, arrays: Arrays) -> dict[str, Any]:
     """A surface on whole numbers; the page's vertex shader turns them back."""
     size_m = float(np.abs(surface.positions).max())
-    return {
+    # square roots, so that dark tones keep their steps
+    mesh = {
         "size_m": size_m,
         "places": arrays.add(_four(_shares(surface.positions / size_m, 32767)), "i2"),
         "normals": arrays.add(_four(_shares(surface.normals, 127)), "i1"),
@@ -132,6 +136,10 @@ def _mesh(surface: Surface, arrays: Arrays) -> dict[str, Any]:
         "colours": arrays.add(_four(_shares(np.sqrt(surface.colours), 255)), "u1"),
         "triangles": arrays.add(surface.triangles, "u2"),
     }
+    if surface.paint is not None:  # sharper than colours at corners
+        shares = np.column_stack([surface.paint[:, :3] / PAINT_M, surface.paint[:, 3]])
+        mesh["paint"] = arrays.add(_shares(shares, 127), "i1")
+    return mesh
 
 
 def _shares(values: np.ndarray, whole: int) -> np.ndarray:

@@ -44,15 +44,18 @@ layout(location = 1) in vec3 normal;
 layout(location = 2) in uvec4 joints;
 layout(location = 3) in vec4 weights;
 layout(location = 4) in vec3 colour;
+layout(location = 5) in vec4 paint;
 uniform mat4 camera, bones[21];
 uniform float size_m;                        // what the greatest coordinate of the mesh stands for
 out vec3 world_m, facing, tint;
+out vec4 edges;
 void main() {
   vec4 w = weights / dot(weights, vec4(1.0));
   mat4 bone = w.x * bones[joints.x] + w.y * bones[joints.y] + w.z * bones[joints.z] + w.w * bones[joints.w];
   world_m = (bone * vec4(place * size_m, 1.0)).xyz;
   facing = mat3(bone) * normal;
   tint = colour * colour;                    // stored as square roots, so that dark tones keep their steps
+  edges = paint;
   gl_Position = camera * vec4(world_m, 1.0);
 }`;
 
@@ -76,15 +79,24 @@ float lit(vec3 p, vec3 normal) {             // 1 in the light, 0 in shadow; sof
 
 const FIGURE_PIXEL = HEAD + LIGHT + `
 in vec3 world_m, facing, tint;
+in vec4 edges;                               // how far from the dark parts, the glass, the shoes; 0 in folds
+uniform vec3 palette[4];
+uniform bool painted;
 out vec4 pixel;
+vec3 paint() {
+  vec3 own = clamp(0.5 + edges.xyz / max(fwidth(edges.xyz), 1e-3), 0.0, 1.0);
+  return mix(palette[3], mix(palette[2], mix(palette[1], palette[0], own.x), own.y), own.z);
+}
 void main() {
+  vec3 albedo = painted ? paint() : tint;
+  float open = painted ? 0.3 + 0.7 * clamp(edges.w, 0.0, 1.0) : 1.0;
   vec3 normal = normalize(facing), to_eye = normalize(eye_m - world_m);
   float towards = dot(normal, to_light), key = clamp((towards + 0.12) / 1.12, 0.0, 1.0) * lit(world_m, normal);
   vec3 hemisphere = mix(vec3(0.37, 0.335, 0.30), vec3(0.60, 0.66, 0.76), 0.5 + 0.5 * normal.z);
   float grazing = pow(1.0 - clamp(dot(normal, to_eye), 0.0, 1.0), 4.0);
   float sheen = pow(clamp(dot(normal, normalize(to_eye + to_light)), 0.0, 1.0), 24.0) * 0.08 * step(0.0, towards);
   vec3 sun = vec3(2.35, 2.24, 2.06);
-  vec3 seen = tint * (sun * key * 0.68 + hemisphere * 0.58) + sheen * key * sun + grazing * 0.12 * hemisphere;
+  vec3 seen = albedo * (sun * key * 0.68 + hemisphere * 0.58 * open) + sheen * key * sun + grazing * 0.12 * hemisphere;
   pixel = vec4(shown(seen), 1.0);
 }`;
 
@@ -159,12 +171,13 @@ function uploaded(gl, mesh, array) {
   attribute(2, "joints", gl.UNSIGNED_BYTE, (slot, count, kind) => gl.vertexAttribIPointer(slot, count, kind, 0, 0));
   attribute(3, "weights", gl.UNSIGNED_BYTE, share);
   attribute(4, "colours", gl.UNSIGNED_BYTE, share);
+  if (mesh.paint) attribute(5, "paint", gl.BYTE, share);
   gl.bindBuffer(gl.ELEMENT_ARRAY_BUFFER, gl.createBuffer());
   gl.bufferData(gl.ELEMENT_ARRAY_BUFFER, array(mesh.triangles), gl.STATIC_DRAW);
-  return {vertices, count: array(mesh.triangles).length, size_m: mesh.size_m};
+  return {vertices, count: array(mesh.triangles).length, size_m: mesh.size_m, painted: Boolean(mesh.paint)};
 }
 
-function renderer(canvas, reach_m) {
+function renderer(canvas, reach_m, palette) {
   const gl = canvas.getContext("webgl2", {antialias: true, alpha: false});
   if (!gl) throw new Error("this browser has no WebGL 2, which the picture needs");
   const figure = program(gl, FIGURE_VERTEX, FIGURE_PIXEL), shadow = program(gl, FIGURE_VERTEX, SHADOW_PIXEL);
@@ -177,6 +190,8 @@ function renderer(canvas, reach_m) {
   gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_MAG_FILTER, gl.LINEAR);
   gl.bindFramebuffer(gl.FRAMEBUFFER, target);
   gl.framebufferTexture2D(gl.FRAMEBUFFER, gl.DEPTH_ATTACHMENT, gl.TEXTURE_2D, map, 0);
+  figure.use();
+  figure.vector("palette", palette.flat());
   gl.enable(gl.DEPTH_TEST);
   gl.enable(gl.CULL_FACE);
 
@@ -186,6 +201,7 @@ function renderer(canvas, reach_m) {
     for (const {mesh, bones} of drawn) {
       shader.matrix("bones", bones);
       shader.number("size_m", mesh.size_m);
+      shader.unit("painted", mesh.painted);
       gl.bindVertexArray(mesh.vertices);
       gl.drawElements(gl.TRIANGLES, mesh.count, gl.UNSIGNED_SHORT, 0);
     }
@@ -284,7 +300,7 @@ async function main() {
   const head = JSON.parse(element("head").textContent), data = await unpacked(element("data").textContent);
   const kinds = {f4: Float32Array, i2: Int16Array, u2: Uint16Array, i1: Int8Array, u1: Uint8Array};
   const array = ([kind, at, length]) => new kinds[kind](data, at, length);
-  const view = renderer(element("view"), head.reach_m), meshes = head.meshes.map(m => uploaded(view.gl, m, array));
+  const view = renderer(element("view"), head.reach_m, head.palette), meshes = head.meshes.map(m => uploaded(view.gl, m, array));
   for (const person of head.people) [person.root, person.turns] = [array(person.root), array(person.turns)];
   for (const ball of head.balls)
     [ball.places, ball.turns, ball.seen] = [array(ball.places), array(ball.turns), array(ball.seen)];

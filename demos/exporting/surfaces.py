@@ -8,12 +8,12 @@ from typing import NamedTuple
 import numpy as np
 
 from engine.body.skeleton import Body
-from engine.render.mannequin import mannequin_mesh, rest_positions
+from engine.render.mannequin import rest_positions
+from engine.render.mesh_cache import cached_mesh
 from engine.render.scene import PERSON
 
 EDGE_M = 0.003  # over which the paint of a figure changes
-GLASS, DARK = (0.012, 0.014, 0.018), (0.12, 0.12, 0.125)
-SHOE_SHARE = 0.18  # of the figure's own colour in its shoes
+FOLD_DARKNESS = 0.6  # what a corner that sees nothing of its surroundings loses of its colour
 
 # of a volleyball: a cube blown up to a sphere, on each pair of opposite faces the middle strip and the outer two
 WHITE, YELLOW, BLUE = (0.80, 0.79, 0.76), (0.86, 0.56, 0.03), (0.025, 0.10, 0.40)
@@ -21,6 +21,17 @@ PANELS = ((BLUE, YELLOW), (YELLOW, WHITE), (WHITE, BLUE))
 SEAM_DARKNESS = 0.25
 ALONG = np.array([0.0, 0.03, 0.2, 0.4, 0.6, 0.8, 0.97, 1.0])  # corners of a panel along it: a narrow rim for the seam
 ACROSS = np.array([0.0, 0.09, 0.5, 0.91, 1.0])
+
+
+def linear(srgb: np.ndarray) -> np.ndarray:
+    """Colours as an artist picks them, as amounts of light (IEC 61966-2-1)."""
+    return np.where(srgb <= 0.04045, srgb / 12.92, ((srgb + 0.055) / 1.055) ** 2.4)
+
+
+# linear colours of a figure: its own, the dark parts, the glass of the face, the shoes
+OWN = linear(np.array(PERSON))
+DARK, GLASS = np.array((0.12, 0.12, 0.125)), np.array((0.012, 0.014, 0.018))
+PALETTE = (OWN, DARK, GLASS, 0.82 * DARK + 0.18 * OWN)
 
 
 class Surface(NamedTuple):
@@ -31,33 +42,29 @@ class Surface(NamedTuple):
     triangles: np.ndarray  # (T, 3) int32, counter-clockwise seen from outside
     joints: np.ndarray  # (V, 4) uint8 rows of `rest`, the strongest first, 0 where the weight is 0
     weights: np.ndarray  # (V, 4) float32, summing to one
-    colours: np.ndarray  # (V, 3) float64, linear light, 0 to 1
+    colours: np.ndarray  # (V, 3) float64, linear light, 0 to 1, darker in folds
     rest: np.ndarray  # (J, 3) where the joints are
+    # (V, 4) of figures: metres to the parts of PALETTE after the first, negative on them; then 0 in folds, 1 outside
+    paint: np.ndarray | None = None
 
 
 def skin_of(body: Body, coarser: float = 1.0) -> Surface:
     """The figure of a body, painted."""
-    mesh = mannequin_mesh(body, coarser)
+    mesh = cached_mesh(body, coarser)
     joints = np.where(mesh.weights > 0.0, mesh.joints, 0).astype("u1")
+    paint = np.column_stack([mesh.paint_m, mesh.openness]).astype(float)
     return Surface(
-        mesh.positions, mesh.normals, mesh.triangles, joints, mesh.weights, _painted(mesh.paint_m), rest_positions(body)
+        mesh.positions, mesh.normals, mesh.triangles, joints, mesh.weights, _painted(paint), rest_positions(body), paint
     )
 
 
-def _painted(paint_m: np.ndarray) -> np.ndarray:
-    """(V, 3) linear colours from how far each corner is from the dark parts, the glass and the shoes."""
-    own = linear(np.array(PERSON))
-    shoe = (1.0 - SHOE_SHARE) * np.array(DARK) + SHOE_SHARE * own
-    colours = np.tile(own, (len(paint_m), 1))
-    for column, paint in enumerate((DARK, GLASS, shoe)):
-        share = np.clip(0.5 - paint_m[:, column, None].astype(float) / EDGE_M, 0.0, 1.0)
-        colours += share * (np.array(paint) - colours)
-    return colours
-
-
-def linear(srgb: np.ndarray) -> np.ndarray:
-    """Colours as an artist picks them, as amounts of light (IEC 61966-2-1)."""
-    return np.where(srgb <= 0.04045, srgb / 12.92, ((srgb + 0.055) / 1.055) ** 2.4)
+def _painted(paint: np.ndarray) -> np.ndarray:
+    """(V, 3) linear colours from `Surface.paint`."""
+    colours = np.tile(OWN, (len(paint), 1))
+    for column, other in enumerate(PALETTE[1:]):
+        share = np.clip(0.5 - paint[:, column, None] / EDGE_M, 0.0, 1.0)
+        colours += share * (other - colours)
+    return colours * (1.0 - FOLD_DARKNESS * (1.0 - paint[:, 3:]))
 
 
 @lru_cache(maxsize=1)
