@@ -192,7 +192,7 @@ def _narrowed(line, value):
     """Moves the ends of the bracket and the three best points."""
     n = line.numbers
     u = n[TRIAL]
-    if value <= n[FX]:
+    if value < n[FX]:  # on a plateau the search stays where it is
         if u >= n[X]:
             n[A] = n[X]
         else:

@@ -57,9 +57,9 @@ def penalty_of(row, value):
     if stray < 0.0:
         stray, side = -stray, LOW
     basin, basin_height, far, far_height = row[side], row[side + 1], row[side + 2], row[side + 3]
-    # the slopes that let both pieces rise without a wave: those of parabolas
-    basin_slope = 2.0 * basin_height / basin
+    # the slopes of parabolas, held to what keeps a cubic from rising over its end and falling back (Fritsch and Carlson 1980)
     wall = (far_height - basin_height) / (far - basin)
+    basin_slope = min(2.0 * basin_height / basin, 3.0 * wall)
     far_slope = max(2.0 * wall - basin_slope, wall)
     if stray <= basin:
         return hermite(0.0, 0.0, basin_height, basin_slope, basin, stray / basin)

@@ -217,7 +217,8 @@ def penalty(row, value):
     """Figure 4 with SciPy's Hermite splines."""
     stray = value - row[0]
     basin, low, far, high = row[5:9] if stray >= 0 else row[1:5]
-    stray, first, wall = abs(stray), 2 * low / basin, (high - low) / (far - basin)
+    stray, wall = abs(stray), (high - low) / (far - basin)
+    first = min(2 * low / basin, 3 * wall)
     last = max(2 * wall - first, wall)
     if stray > far:
         return high + last * (stray - far)
