@@ -45,6 +45,7 @@ class FootGoals(NamedTuple):
     turned: np.ndarray  # (2, 4) ankle orientation, world
     toe: np.ndarray  # (2, 4) toe rotation, in the ankle's frame
     bound: np.ndarray  # (2,) bool: False lets that foot go with the pose
+    bears: np.ndarray  # (2,) 0 to 1: how far the body goes down for that foot; one in the air is left behind instead
 
 
 class BlendEnd(NamedTuple):
@@ -151,7 +152,8 @@ def hold_feet(body, goals, own_lengths, knee_swivels, root_m, rotations, positio
     drop = 0.0
     for side in range(2):
         if goals.bound[side]:
-            drop = max(drop, drop_beyond_own(body, positions[HIPS[side]], goals.ankle_m[side], side, own_lengths[side]))
+            need = drop_beyond_own(body, positions[HIPS[side]], goals.ankle_m[side], side, own_lengths[side])
+            drop = max(drop, goals.bears[side] * need)
     if drop > 0.0:
         root_m[2] -= drop
         for j in range(JOINT_COUNT):
@@ -168,7 +170,7 @@ def hold_feet(body, goals, own_lengths, knee_swivels, root_m, rotations, positio
                 goals.ankle_m[side],
                 goals.turned[side],
                 knee_swivels[side],
-                0.0,
+                LEG_SOFT_M * (1.0 - goals.bears[side]),
             )
 
 

@@ -153,6 +153,7 @@ class Feet(Component):
     from_m = column(2, 3)  # a step begins here
     from_turned = column(2, 4)
     from_toe = column(2, 4)
+    from_down = column(2)  # 1 where it stood when the step was planned, else 0
     lift_m = column(2)
     since = column(2, dtype=np.int64)
     ticks = column(2)

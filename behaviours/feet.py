@@ -21,17 +21,22 @@ from engine.maths import quaternion, vector
 
 FREE, HELD, STEPPING = int(FootMode.FREE), int(FootMode.HELD), int(FootMode.STEPPING)
 
+LIFTED, LANDS = 0.35, 0.6  # shares of a step: up to the first a foot that stood still bears, from the second on it does again
+
 
 @njit(cache=True)
-def goals_at(tick, mode, ankle_m, turned, toe, from_m, from_turned, from_toe, lift_m, since, ticks):
+def goals_at(tick, mode, ankle_m, turned, toe, from_m, from_turned, from_toe, from_down, lift_m, since, ticks):
     """Where both feet are to be at a tick: FootGoals. Arrays are one row of the `Feet` columns, left and right first."""
     goal_m = np.empty((2, 3))
     goal_turned, goal_toe = np.empty((2, 4)), np.empty((2, 4))
-    bound = np.empty(2, np.bool_)
+    bound, bears = np.empty(2, np.bool_), np.empty(2)
     for side in range(2):
         bound[side] = mode[side] != FREE
+        bears[side] = 1.0 if mode[side] == HELD else 0.0
         progress = 1.0 if mode[side] != STEPPING else (tick - since[side]) / ticks[side]
         eased = ease(progress)
+        if mode[side] == STEPPING:
+            bears[side] = max(from_down[side] * (1.0 - ease(progress / LIFTED)), ease((progress - LANDS) / (1.0 - LANDS)))
         place = vector.mix(from_m[side], ankle_m[side], eased)
         q = quaternion.slerp(from_turned[side], turned[side], eased)
         bent = quaternion.slerp(from_toe[side], toe[side], eased)
@@ -43,7 +48,7 @@ def goals_at(tick, mode, ankle_m, turned, toe, from_m, from_turned, from_toe, li
         goal_m[side, 2] += lift_m[side] * arc(progress)
         goal_turned[side, 0], goal_turned[side, 1], goal_turned[side, 2], goal_turned[side, 3] = q
         goal_toe[side, 0], goal_toe[side, 1], goal_toe[side, 2], goal_toe[side, 3] = bent
-    return FootGoals(goal_m, goal_turned, goal_toe, bound)
+    return FootGoals(goal_m, goal_turned, goal_toe, bound, bears)
 
 
 def goals_of(feet, row: int, tick: float) -> FootGoals:
@@ -57,6 +62,7 @@ def goals_of(feet, row: int, tick: float) -> FootGoals:
         feet.from_m[row],
         feet.from_turned[row],
         feet.from_toe[row],
+        feet.from_down[row],
         feet.lift_m[row],
         feet.since[row],
         feet.ticks[row],
@@ -101,6 +107,7 @@ def step(feet, row: int, side: int, start: Footing, end: Footing, tick: int, tic
     feet.from_m[row, side], feet.from_turned[row, side], feet.from_toe[row, side] = start
     feet.ankle_m[row, side], feet.turned[row, side], feet.toe[row, side] = end
     feet.since[row, side], feet.ticks[row, side] = tick, ticks
+    feet.from_down[row, side] = float(feet.planted[row, side])
     far = vector.distance(feet.from_m[row, side], feet.ankle_m[row, side])
     # full height from the distance at which a foot counts as moved; below that in proportion, so nothing pops
     feet.lift_m[row, side] = balance.lift_height_m * min(1.0, far / (2.0 * balance.lift_over_m))

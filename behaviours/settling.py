@@ -7,7 +7,7 @@ from numba import njit
 
 from behaviours import feet as foot_plan
 from behaviours import seams
-from behaviours.blending import drop_beyond_own, legs_to
+from behaviours.blending import LEG_SOFT_M, drop_beyond_own, legs_to
 from behaviours.components import Blend, Blow, Character, Feet, Phase, Playback, Posture, Ragdoll, Reaction, Residual, Sustained
 from behaviours.inertialise import add_remaining, nothing_left, remaining, remaining2, turned_by
 from behaviours.playing import body_of, clip_time_s, planted_in_clip
@@ -45,7 +45,7 @@ def keep_knees(body, source, rotations):
 
 
 @njit(cache=True)
-def stand_on(body, root_m, rotations, ankle_m, turned, own_lengths):
+def stand_on(body, root_m, rotations, ankle_m, turned, bears, own_lengths):
     """Leg IK of both legs onto ankle goals (2, 3), (2, 4), in place. The knees stay where the least swing leaves them.
 
     The pelvis sinks by what the residual has put out of reach, beyond `own_lengths` (2,): the legs' in the source, and what is
@@ -56,13 +56,14 @@ def stand_on(body, root_m, rotations, ankle_m, turned, own_lengths):
     joints_into(body.offset_m, root_m, rotations, positions, orientations)
     drop = 0.0
     for side in range(2):
-        drop = max(drop, drop_beyond_own(body, positions[HIPS[side]], ankle_m[side], side, own_lengths[side]))
+        need = drop_beyond_own(body, positions[HIPS[side]], ankle_m[side], side, own_lengths[side])
+        drop = max(drop, bears[side] * need)
     root_m[2] -= drop
     for j in range(JOINT_COUNT):
         positions[j, 2] -= drop
     for side in range(2):
         swivel = leg_swivel(positions, orientations, side)
-        apply_leg(body, rotations, positions, orientations, side, ankle_m[side], turned[side], swivel, 0.0)
+        apply_leg(body, rotations, positions, orientations, side, ankle_m[side], turned[side], swivel, LEG_SOFT_M * (1.0 - bears[side]))
 
 
 @system(
@@ -121,7 +122,7 @@ def settled_pose(world, row: int, tick: float) -> tuple[np.ndarray, np.ndarray]:
     add_remaining(source.root_m, source.rotations, r.root[row], r.joints[row], elapsed_s, half_life_s)
     keep_knees(body, unaltered, source.rotations)
     goals_with_residual(goals.ankle_m, goals.turned, r.ankles[row], r.ankle_turns[row], elapsed_s, half_life_s)
-    stand_on(body, source.root_m, source.rotations, goals.ankle_m, goals.turned, own_lengths)
+    stand_on(body, source.root_m, source.rotations, goals.ankle_m, goals.turned, goals.bears, own_lengths)
     return source.root_m, source.rotations
 
 

@@ -94,7 +94,7 @@ def choose_hand_ways(world, row: int, start: Pose, end: Pose) -> None:
     b.arcs[row] = STRAIGHT
     if b.support[row] == NOBODY:
         return  # both ends lie
-    goals = FootGoals(np.zeros((2, 3)), np.zeros((2, 4)), np.zeros((2, 4)), np.zeros(2, bool))
+    goals = FootGoals(np.zeros((2, 3)), np.zeros((2, 4)), np.zeros((2, 4)), np.zeros(2, bool), np.zeros(2))
     first, last = blend_end(body, shape, *start), blend_end(body, shape, *end)
     b.arcs[row] = choose_arcs(body, shape, first, last, int(b.support[row]), goals)
 
@@ -109,4 +109,5 @@ def foot_goals(world, row: int, tick: float, source: Pose) -> FootGoals:
         np.where(free, orientations[ANKLE_ROWS], planned.turned),
         np.where(free, source.rotations[TOE_ROWS], planned.toe),
         np.ones(2, bool),
+        planned.bears,
     )
