@@ -26,6 +26,11 @@ class Around(NamedTuple):
         return math.cos(self.azimuth_rad)
 
     @property
+    def low(self) -> float:
+        """0 for an object as high as the chest or higher, 1 for one straight below it."""
+        return max(0.0, -math.sin(self.elevation_rad))
+
+    @property
     def left(self) -> float:
         """1 for an object on the left, -1 for one on the right."""
         return math.sin(self.azimuth_rad)

@@ -155,17 +155,30 @@ def least_squares_step(minimum, unknowns, stiffness, lacks, slopes, bounds, step
     left = lacks.copy()
     for _ in range(len(step) + 2):
         _free_step(minimum, unknowns, stiffness, left, slopes, free, counts, step)
+        u = _first_to_stop(unknowns, bounds, free, step)
+        if u >= 0:
+            step[u] = min(max(unknowns[u] + step[u], bounds[u, 0]), bounds[u, 1]) - unknowns[u]
+            free[u] = False
+            left += slopes[:, u] * step[u]
+            continue
         changed = False
-        for u in range(len(step)):
-            held = min(max(unknowns[u] + step[u], bounds[u, 0]), bounds[u, 1]) - unknowns[u]
-            if free[u] and held != step[u]:
-                free[u], step[u], changed = False, held, True
-                left += slopes[:, u] * held
         for side in range(2):
-            if not changed and not counts[side] and left[side] + _sum_over(free, slopes[side], step) > 0.0:
+            if not counts[side] and left[side] + _sum_over(free, slopes[side], step) > 0.0:
                 counts[side], changed = True, True
         if not changed:
             return
+
+
+@njit(cache=True)
+def _first_to_stop(unknowns, bounds, free, step):
+    """The free unknown that a step would take past its bound earliest on the way; -1 when none."""
+    first, earliest = -1, 1.0
+    for u in range(len(step)):
+        if free[u] and step[u] != 0.0:
+            room = bounds[u, 1] - unknowns[u] if step[u] > 0.0 else unknowns[u] - bounds[u, 0]
+            if room < earliest * abs(step[u]):
+                first, earliest = u, max(room, 0.0) / abs(step[u])
+    return first
 
 
 @njit(cache=True)

@@ -38,7 +38,8 @@ def mild(intensity: float, around: Around) -> Shape:
 def strong(intensity: float, around: Around) -> Shape:
     a, ahead, side = intensity, around.ahead, around.side
     away = _sideways(around)
-    knees = {"knee_left_rad": 0.35 * abs(a)} if side > 0.0 else {"knee_right_rad": 0.35 * abs(a)}
+    over = 1.0 - around.low  # from something on the ground it draws itself up instead of curling over it
+    knees = {"knee_left_rad": 0.35 * over * abs(a)} if side > 0.0 else {"knee_right_rad": 0.35 * over * abs(a)}
     return shape(
         coronal_class=LARGE_S,
         sagittal_class=SMALL_C,
@@ -46,8 +47,8 @@ def strong(intensity: float, around: Around) -> Shape:
         collar_z=ALIGNED,
         dominant=_standing_on(-away * a),
         coronal=2.4 * away * a,
-        sagittal=1.2 * a,
-        abdomen_x_rad=-0.22 * ahead * a,
+        sagittal=(0.2 + 1.0 * over) * a,
+        abdomen_x_rad=-(0.22 + 0.15 * around.low) * ahead * a,
         transverse_rad=-0.6 * side * a,
         collar_y_rad=-0.28 * side * a,
         collar_z_rad=0.3 * a,
