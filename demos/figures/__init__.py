@@ -69,5 +69,5 @@ def draw_figure(name: str, press: Press) -> Sheet:
     sheet = importlib.import_module(f"demos.figures.{find_figure(name).module}").draw(press)
     if press.missing:
         note = f"drawn with the embedded clip; {', '.join(press.missing)} not fetched"
-        sheet.text(sheet.width - 8, sheet.height - 6, note, 9, "faint", "right", "bottom")
+        sheet.text(0.7 * sheet.width, sheet.height - 5, note, 9, "faint", "center", "bottom")
     return sheet
