@@ -46,7 +46,7 @@ def strong(intensity: float, around: Around) -> Shape:
         collar_y=OPPOSED,
         collar_z=ALIGNED,
         dominant=_standing_on(-away * a),
-        coronal=2.4 * away * a,
+        coronal=-2.4 * away * a,  # the upper part of the S, chest to head, bends away
         sagittal=(0.2 + 1.0 * over) * a,
         abdomen_x_rad=-(0.22 + 0.15 * around.low) * ahead * a,
         transverse_rad=-0.6 * side * a,

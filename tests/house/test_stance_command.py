@@ -1,0 +1,98 @@
+"""`brace stance`: its report, its JSON, its pictures, its refusals."""
+
+import json
+
+import numpy as np
+import pytest
+from PIL import Image
+
+from demos.cli import main
+from engine.body.skeleton import JOINTS
+
+KEYS = {
+    "set", "intensity", "states", "amplitudes", "penalties", "cycles", "evaluations", "milliseconds", "wrist_error_m",
+    "foot_error_m", "com_m", "support_m", "pose",
+}  # fmt: skip
+
+
+def report_of(capsys, *words):
+    assert main(["stance", *words, "--json"]) == 0
+    return json.loads(capsys.readouterr().out)
+
+
+def test_json_has_what_the_interfaces_say(capsys):
+    report = report_of(capsys, "reach-eager", "--intensity", "0.8", "--reach-right", "0.5,-0.2,1.2")
+    assert report.keys() >= KEYS
+    assert report["set"] == "reach-eager"
+    assert report["intensity"] == 0.8
+    assert set(report["amplitudes"]) == {"coronal", "sagittal", "transverse", "collar_y", "collar_z", "abdomen_x"}
+    assert report["penalties"].keys() >= {"sagittal", "reach_right"}
+    assert set(report["pose"]["joints_m"]) == set(report["pose"]["rotations_wxyz"]) == set(JOINTS)
+    assert report["pose"]["joints_m"]["right_wrist"] == pytest.approx([0.5, -0.2, 1.2], abs=1e-3)
+    assert report["wrist_error_m"]["right"] < 1e-3
+    assert max(report["foot_error_m"].values()) < 1e-4
+    assert np.hypot(*np.subtract(report["com_m"][:2], report["com_wanted_m"])) < 2e-3
+    assert report["milliseconds"] > 0.0
+
+
+def test_a_word_of_alberts_is_the_posture_it_stands_for(capsys):
+    hunched, posture = report_of(capsys, "hunched"), report_of(capsys, "posture", "--intensity", "-1")
+    assert hunched["pose"] == posture["pose"]
+
+
+def test_the_object_is_what_it_turns_from(capsys):
+    left, right = (report_of(capsys, "recoil-mild", "--object", f"1,{y},1.2") for y in (0.5, -0.5))
+    assert left["pose"]["joints_m"]["head"][1] == pytest.approx(-right["pose"]["joints_m"]["head"][1], abs=1e-6)
+    assert left["pose"]["joints_m"]["head"][1] < -0.02
+
+
+def test_words_for_people(capsys):
+    assert main(["stance", "slovenly", "--width", "0.3"]) == 0
+    said = capsys.readouterr().out
+    assert "sagittal SmallC" in said
+    assert "limits      kept" in said
+
+
+def test_the_list_names_every_set(capsys):
+    from behaviours.stance.shape_sets import SETS
+
+    assert main(["stance", "--list"]) == 0
+    said = capsys.readouterr().out
+    assert all(name in said for name in SETS)
+
+
+@pytest.mark.parametrize(
+    ("words", "found"),
+    [
+        (["poster"], "posture"), ([], "expected a SET"), (["posture", "--object", "1,2"], "three numbers"),
+        (["posture", "--object", "a,b,c"], "three numbers"), (["posture", "--intensity", "nan"], "finite"),
+        (["posture", "--height", "9"], "metres"), (["posture", "--width", "-1"], "metres"), (["posture", "-o", "x.jpg"], ".png"),
+    ],
+)  # fmt: skip
+def test_bad_input_is_one_line_and_code_2(capsys, words, found):
+    assert main(["stance", *words]) == 2
+    said = capsys.readouterr().err
+    assert said.count("\n") == 1
+    assert found in said
+
+
+def test_nowhere_to_write_is_code_3(capsys, tmp_path):
+    assert main(["stance", "posture", "-o", str(tmp_path / "none" / "x.png")]) == 3
+
+
+def test_a_picture_of_front_and_side(tmp_path, capsys):
+    path = tmp_path / "stance.png"
+    assert main(["stance", "recoil-strong", "--object", "1,0.4,1.3", "-o", str(path)]) == 0
+    picture = np.asarray(Image.open(path).convert("L"), float)
+    half = picture.shape[1] // 2
+    front, side = picture[:, :half], picture[:, half:]
+    assert picture.shape == (720, 960)
+    assert front.std() > 5
+    assert np.abs(front - side).mean() > 1
+
+
+def test_a_film_of_getting_there(tmp_path, capsys):
+    path = tmp_path / "stance.gif"
+    assert main(["stance", "slovenly", "-o", str(path)]) == 0
+    with Image.open(path) as film:
+        assert film.n_frames > 60
