@@ -19,8 +19,8 @@ from behaviours.overlap import ARM_CAPSULES, PAIRS
 from behaviours.timing import ease
 from engine.body import limits
 from engine.body.kinematics import centre_of_mass, joints_into
-from engine.body.limb_ik import CARRIED, KEEP, apply_arm, apply_leg, arm_swivel, leg_swivel
-from engine.body.skeleton import ANKLES, ELBOWS, HEAD, HIPS, JOINT_COUNT, KNEES, NECK, PELVIS, SHOULDERS, TOES, WRISTS
+from engine.body.limb_ik import CARRIED, KEEP, apply_arm, apply_leg, arm_swivel, leg_swivel, side_sign
+from engine.body.skeleton import ANKLES, BACK, ELBOWS, HEAD, HIPS, JOINT_COUNT, KNEES, NECK, PELVIS, SHOULDERS, TOES, WRISTS
 from engine.body.two_bones import soft_reach
 from engine.maths import quaternion, vector
 
@@ -29,8 +29,13 @@ COM_GAIN = 1.12
 LEG_SOFT_M = 0.010  # a leg straightens over this length, instead of snapping straight
 LYING_LEG, STANDING_LEG = 0.2, 0.5  # hip over ankle in shares of the leg: it lies, or it may be standing
 LEG_SPARE_M = 0.0005  # and stays this much short of it, but where its own motion has it straighter
-# straight; straight, but with the slerped arm's elbow; ever more the slerped arm's way. Negative: the shoulder mixed by components
-ARC_SHARES = (0.0, 1e-3, -1e-3, 0.25, -0.25, 0.5, -0.5, 0.75, 1.0, -1.0)
+# (share of the slerped arm's way, bow): straight; straight, but with the slerped arm's elbow; ever more the slerped arm's way,
+# with a negative share the shoulder mixed by components; then bowed out, metres, ahead and aside, round the trunk
+ARC_WAYS = np.array([
+    (0.0, 0.0), (1e-3, 0.0), (-1e-3, 0.0), (0.25, 0.0), (-0.25, 0.0), (0.5, 0.0), (-0.5, 0.0), (0.75, 0.0), (1.0, 0.0), (-1.0, 0.0),
+    (1e-3, 0.12), (-1e-3, 0.12), (0.5, 0.12), (-0.5, 0.12), (1.0, 0.12), (1e-3, 0.24), (-1e-3, 0.24), (0.5, 0.24), (1.0, 0.24),
+])  # fmt: skip
+BOW_AHEAD, BOW_ASIDE = 0.8, 0.6
 ARC_SAMPLES = 16
 ARC_STRIDE_M = 0.15  # an elbow that goes farther than this from one sample to the next turns over
 ARC_LIMIT_RAD = 0.005  # a line on which the shoulder goes this far beyond its limits, or
@@ -100,7 +105,7 @@ def mix_joint(joint, first, last, weight, by_components):
 def slerp_from_support(body, start, end, weight, support, arcs, root_m, rotations, positions, orientations):
     """First pass: every joint slerped, and the pelvis placed so that the support foot goes straight from end to end."""
     for j in range(JOINT_COUNT):
-        by_components = (j == SHOULDERS[0] and arcs[0] < 0.0) or (j == SHOULDERS[1] and arcs[1] < 0.0)
+        by_components = (j == SHOULDERS[0] and arcs[0, 0] < 0.0) or (j == SHOULDERS[1] and arcs[1, 0] < 0.0)
         q = mix_joint(j, start.rotations[j], end.rotations[j], weight, by_components)
         rotations[j, 0], rotations[j, 1], rotations[j, 2], rotations[j, 3] = q
     root_m[:] = 0.0
@@ -233,17 +238,19 @@ def mix_angle(first_rad, last_rad, weight):
 def arms_between(body, start, end, weight, arcs, rotations, positions, orientations):
     """Both arms on their way from end to end (thesis 4.3), in place. Returns where their wrists are to be, (2, 3).
 
-    The hand goes straight, the swivel angle is interpolated. With a share `arcs` (2,) that is not 0 the hand goes by that much on the way
-    that slerping the arm takes it, and the elbow is left where that has it. The arms come here slerped.
+    The hand goes straight, the swivel angle is interpolated. With a share `arcs` (2, 2) that is not 0 the hand goes by that much on the way
+    that slerping the arm takes it, and the elbow is left where that has it. The arms come here slerped. The second of `arcs` bows the way out by so many metres at its middle.
     """
     targets = np.empty((2, 3))
     for side in range(2):
-        wrist, arc = WRISTS[side], abs(arcs[side])
+        wrist, arc = WRISTS[side], abs(arcs[side, 0])
         line = vector.mix(start.positions[wrist], end.positions[wrist], weight)
         first = arm_swivel(start.positions, start.orientations, side, CARRIED)
         last = arm_swivel(end.positions, end.orientations, side, CARRIED)
         swivel = mix_angle(first, last, weight) if arc == 0.0 else KEEP
         line = vector.mix(line, positions[wrist], arc)
+        out = quaternion.rotate(orientations[BACK], (BOW_AHEAD, BOW_ASIDE * side_sign(side), 0.0))
+        line = vector.along(line, out, 4.0 * weight * (1.0 - weight) * arcs[side, 1])
         targets[side, 0], targets[side, 1], targets[side, 2] = line
         apply_arm(body, rotations, positions, orientations, side, line, swivel, CARRIED)
     return targets
@@ -277,7 +284,7 @@ def blend_trunk_and_legs(body, start, end, weight, support, goals, arcs, root_m,
 def blend_into(body, capsules, start, end, weight, support, goals, arcs, root_m, rotations):
     """The pose a weight (already eased, 0 to 1) of the way from one end to the other. Writes root_m (3,) and rotations (J, 4).
 
-    arcs (2,): see `arms_between`. Returns how far either hand was led off its way to go round the body, metres.
+    arcs (2, 2): see `arms_between`. Returns how far either hand was led off its way to go round the body, metres.
     """
     positions = np.empty((JOINT_COUNT, 3))
     orientations = np.empty((JOINT_COUNT, 4))
@@ -310,17 +317,18 @@ def arm_trouble(body, capsules, start, end, weight, side, rotations, positions, 
 
 @njit(cache=True)
 def choose_arcs(body, capsules, start, end, support, goals):
-    """How much of the slerped arm's way each hand takes, (2,): none, a straight line, unless that is no way for an arm.
+    """How each hand goes, (2, 2), one of ARC_WAYS: the first, a straight line, unless that is no way for an arm.
 
     A line that leads deep through the body, or where the shoulder cannot follow, is bent towards the way that slerping the arm
-    takes, by the least of a few shares that makes it good enough; else by the one that leaves least wrong.
+    takes, or round the trunk: by the first way that is good enough, else by the one that leaves least wrong.
     """
-    arcs, least = np.zeros(2), np.full(2, np.inf)
+    arcs, least = np.zeros((2, 2)), np.full(2, np.inf)
     found = np.zeros(2, np.bool_)
     root_m, rotations = np.empty(3), np.empty((JOINT_COUNT, 4))
     positions, orientations = np.empty((JOINT_COUNT, 3)), np.empty((JOINT_COUNT, 4))
-    for share in ARC_SHARES:
-        both, worst, elbows_m = np.full(2, share), np.zeros(2), np.empty((2, 3))
+    for way in range(len(ARC_WAYS)):
+        both, worst, elbows_m = np.empty((2, 2)), np.zeros(2), np.empty((2, 3))
+        both[:] = ARC_WAYS[way]
         for k in range(ARC_SAMPLES + 1):
             weight = k / ARC_SAMPLES
             blend_trunk_and_legs(
@@ -338,7 +346,8 @@ def choose_arcs(body, capsules, start, end, support, goals):
                 worst[side] = max(worst[side], wrong)
         for side in range(2):
             if not found[side] and worst[side] < least[side]:
-                least[side], arcs[side] = worst[side], share
+                least[side] = worst[side]
+                arcs[side, 0], arcs[side, 1] = ARC_WAYS[way, 0], ARC_WAYS[way, 1]
                 found[side] = worst[side] == 0.0
         if found[0] and found[1]:
             break

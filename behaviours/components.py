@@ -81,7 +81,7 @@ class Blend(Component):
     since = column(dtype=np.int64)
     ticks = column()  # how long it lasts; not whole, since slack stretches it
     support = column(dtype=np.int64)  # the primary support foot: side 0 or 1, or NOBODY: both ends lie
-    arcs = column(2)  # left, right: how far the hands' ways are bent off their straight lines, see `choose_arcs`
+    arcs = column(2, 2)  # left, right: how far the hands' ways are bent off their straight lines, see `choose_arcs`
 
 
 class Sustained(Component):

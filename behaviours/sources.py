@@ -18,7 +18,7 @@ from engine.body.skeleton import ANKLES, JOINT_COUNT, TOES, Pose
 from engine.physics import ragdoll
 
 ANKLE_ROWS, TOE_ROWS = list(ANKLES), list(TOES)
-STRAIGHT = np.zeros(2)
+STRAIGHT = np.zeros((2, 2))
 PAUSING = (Phase.PROTECT, Phase.HOLD)  # the pose is there, the ball is not
 
 
