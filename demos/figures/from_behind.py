@@ -15,7 +15,7 @@ UNIT = 210.0  # units for a metre
 
 def draw(press: Press) -> Sheet:
     m = meet(press.clip("walk", "stand"), TIME_S, 180.0, 12.0, 25.0, 0.5)
-    scene = Scene([posed(m.body, m.found.sustained, SUSTAINED_ORANGE)], [arriving(m, 0.12)])
+    scene = Scene([posed(m.body, m.found.sustained, SUSTAINED_ORANGE)], [arriving(m, 0.6)])
     stills = [press.still_at(scene, look, UNIT) for look, _ in VIEWS]
     height = max(still.size[1] for still in stills)
     sheet = Sheet(height + 30, press.scale, sum(still.size[0] for still in stills))
