@@ -55,6 +55,7 @@ class Character(Component):
     startle = column(dtype=bool)
     protects = column(dtype=bool)  # without it nothing is noticed: the same blow, unprepared
     response_s = column()
+    boldness = column()  # -1 timid ... +1 bold
     turn_side = column(dtype=np.int64)  # the side last turned to: kept when a threat comes from dead ahead
 
 

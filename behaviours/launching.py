@@ -9,7 +9,7 @@ from behaviours.components import Character, Feet, Flight, Playback, Posture, Re
 from behaviours.perceived import AIMS, aim_of, target_centre
 from behaviours.playing import body_of, heading_of, perception_clip_s
 from behaviours.prepare import aim_point, prepare
-from behaviours.protection import look_ahead, perceive
+from behaviours.protection import felt, look_ahead, perceive
 from behaviours.scenario import ThreatSpec
 from behaviours.seams import shown
 from behaviours.senses import face, facing_dot, first_due
@@ -121,9 +121,8 @@ def aimed_approach(world, spec: ThreatSpec, make: Make, row: int) -> Approach:
         )
         travel = vector.unit(vector.subtract(way.contact_m, way.start_m), (-1.0, 0.0, 0.0))
         tangent = vector.unit(way.contact_mps, travel)
-        threat = perceive(
-            body, now, str(spec.target), aim, tangent, travel, make.speed_norm, make.size_norm, make.radius_m
-        )
+        speed_norm, size_norm = felt(world, row, make.speed_norm, make.size_norm)
+        threat = perceive(body, now, str(spec.target), aim, tangent, travel, speed_norm, size_norm, make.radius_m)
         side = float(world[Character].turn_side[row])
         aim = aim_point(prepare(body, now, ahead, planted, threat, settings, side, landing))
     return way

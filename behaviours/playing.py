@@ -7,6 +7,7 @@ import numpy as np
 from behaviours.components import Character, Phase, Playback, Posture, Reaction
 from behaviours.placing import placed
 from behaviours.timing import TICK_S
+from behaviours.wearing import worn_pose
 from engine.body.capsules import Capsules
 from engine.body.skeleton import PELVIS, Body, Pose
 from engine.clips.clip import Clip
@@ -35,9 +36,11 @@ def clip_time_s(world, row: int, tick: int) -> float:
 
 
 def clip_pose(world, row: int, time_s: float) -> Pose:
-    """The clip's pose at a clip time, in the world."""
+    """The clip's pose at a clip time, in the world, over the character's stance."""
     p = world[Playback]
-    return placed(sample(clip_of(world, row), max(0.0, time_s)), p.place_m[row], float(p.heading_rad[row]))
+    pose = placed(sample(clip_of(world, row), max(0.0, time_s)), p.place_m[row], float(p.heading_rad[row]))
+    worn = world.assets.stances[int(world[Character].body[row])]
+    return pose if worn is None else worn_pose(body_of(world, row), pose, worn)
 
 
 def planted_in_clip(world, row: int, time_s: float) -> np.ndarray:

@@ -14,6 +14,7 @@ from behaviours.seams import shown
 from behaviours.sustained import Protection, protect
 from behaviours.threats import KINDS
 from behaviours.timing import TICK_S
+from behaviours.wearing import as_felt
 from engine.body.kinematics import joints_of
 from engine.body.skeleton import MIRRORED, PELVIS, Body, Pose
 from engine.clips.mirror import mirror_pose
@@ -44,6 +45,12 @@ def _triple(v) -> tuple[float, float, float]:
     return (float(v[0]), float(v[1]), float(v[2]))
 
 
+def felt(world, row: int, speed_norm: float, size_norm: float) -> tuple[float, float]:
+    """A threat's speed and size as the rules take them: coloured by how bold the character is (S9)."""
+    temper, boldness = world.assets.settings.temper, float(world[Character].boldness[row])
+    return as_felt(speed_norm, boldness, temper.speed_share), as_felt(size_norm, boldness, temper.size_share)
+
+
 def perceived_threat(world, row: int, threat_row: int) -> PerceivedThreat:
     """The threat in a row of the world, as the character in another sees it."""
     t = world[Threat]
@@ -54,8 +61,7 @@ def perceived_threat(world, row: int, threat_row: int) -> PerceivedThreat:
         t.line_m[threat_row],
         t.tangent[threat_row],
         t.travel[threat_row],
-        t.speed_norm[threat_row],
-        t.size_norm[threat_row],
+        *felt(world, row, t.speed_norm[threat_row], t.size_norm[threat_row]),
         world[Flight].radius_m[threat_row],
     )
 

@@ -26,6 +26,13 @@ class _Section(BaseModel):
     model_config = ConfigDict(extra="forbid", frozen=True, allow_inf_nan=False)
 
 
+class StanceSpec(_Section):
+    """A stance worn under everything: a set of `brace stance`, or one of Alberts' words, and how much of it."""
+
+    set: str = "posture"
+    intensity: Annotated[float, Field(ge=-2, le=2)] = 0.0
+
+
 class CharacterSpec(_Section):
     """One person: a clip, where to begin in it, where to stand, and how to react."""
 
@@ -34,6 +41,8 @@ class CharacterSpec(_Section):
     position_m: tuple[float, float] = (0.0, 0.0)
     heading_deg: float = 0.0
     mirrored: bool = False
+    stance: StanceSpec = StanceSpec()
+    boldness: Annotated[float, Field(ge=-1, le=1)] = 0.0  # -1 timid ... +1 bold
     startle: bool = True
     protects: bool = True  # false: sees nothing coming, for comparison
     recover: Recover = "same"

@@ -42,6 +42,7 @@ from behaviours.settings import Settings, override
 from behaviours.settling import settle_poses
 from behaviours.threats import make_threat
 from behaviours.timing import TICK_S
+from behaviours.wearing import Worn, worn_by, worn_pose
 from engine.body.capsules import Capsules, body_capsules
 from engine.body.skeleton import Body
 from engine.clips.clip import Clip
@@ -78,6 +79,7 @@ class Assets:
     mirrored_bodies: tuple[Body, ...]
     models: tuple[RagdollModel, ...]
     capsules: tuple[Capsules, ...]
+    stances: tuple[Worn | None, ...]  # None: the clip as it is
     threats: tuple[ThreatSpec, ...]
     character_rows: tuple[int, ...]
     libraries: tuple[Library | None, ...]  # of each character: what it may go on with, where that is searched for
@@ -93,7 +95,8 @@ def build_world(scenario: Scenario, find: FindClip) -> World:
     capsules = tuple(body_capsules(body) for body in bodies)
     clips, libraries = gather_libraries(scenario, own, find, settings)
     mirrored = tuple(mirror_body(body) for body in bodies)
-    assets = Assets(settings, clips, bodies, mirrored, models, capsules, scenario.threat, rows, libraries)
+    stances = tuple(_stance_of(spec, body) for spec, body in zip(scenario.character, bodies, strict=True))
+    assets = Assets(settings, clips, bodies, mirrored, models, capsules, stances, scenario.threat, rows, libraries)
     world = World(COMPONENTS, scenario.seed, assets)
     for row, spec in zip(rows, scenario.character, strict=True):
         _spawn_character(world, row, spec)
@@ -105,6 +108,10 @@ def build_world(scenario: Scenario, find: FindClip) -> World:
 def _clip_of(spec: CharacterSpec, find: FindClip) -> Clip:
     clip = find(spec)
     return mirror_clip(clip) if spec.mirrored else clip
+
+
+def _stance_of(spec: CharacterSpec, body: Body) -> Worn | None:
+    return worn_by(body, spec.stance.set, spec.stance.intensity) if spec.stance.intensity != 0.0 else None
 
 
 def flat_settings(nested: dict[str, Any]) -> dict[str, Any]:
@@ -127,12 +134,21 @@ def _spawn_character(world: World, row: int, spec: CharacterSpec) -> None:
     start = placed(sample(clip, spec.start_s), (0.0, 0.0), heading)
     place = np.array(spec.position_m) - start.root_m[:2]
     pose, before = (placed(sample(clip, max(0.0, spec.start_s - s)), place, heading) for s in (0.0, TICK_S))
+    worn = world.assets.stances[row]
+    if worn is not None:
+        pose, before = worn_pose(clip.body, pose, worn), worn_pose(clip.body, before, worn)
     entity = world.spawn(
         Playback(clip=row, offset_s=spec.start_s + TICK_S, place_m=place, heading_rad=heading),
         Posture(
             root_m=pose.root_m, rotations=pose.rotations, before_root_m=before.root_m, before_rotations=before.rotations
         ),
-        Character(body=row, startle=spec.startle, protects=spec.protects, response_s=spec.response_s),
+        Character(
+            body=row,
+            startle=spec.startle,
+            protects=spec.protects,
+            boldness=spec.boldness,
+            response_s=spec.response_s,
+        ),
         Reaction(threat=NOBODY),
         Blend(ticks=1.0),
         Sustained(root_m=pose.root_m, rotations=pose.rotations),
