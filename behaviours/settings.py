@@ -110,6 +110,7 @@ class Balance(NamedTuple):
 
     brace_m: Annotated[float, Constant("m", "3.3", "COM wanted this far towards the threat")] = 0.10
     leg_share: Annotated[float, Constant("1", "A4", "of a leg's length that planting may use")] = 0.99
+    lower_for_foot_m: Annotated[float, Constant("m", "A4", "the pelvis goes at most this much down to put a foot on the ground")] = 0.06
     lift_over_m: Annotated[float, Constant("m", "A4", "a foot that moves farther is lifted on an arc")] = 0.03
     lift_height_m: Annotated[float, Constant("m", "A4", "height of that arc")] = 0.05
     limit_margin_rad: Annotated[float, Constant("rad", "A", "hips, ankles and shoulders keep this far inside their limits")] = radians(0.5)
@@ -127,7 +128,6 @@ class Objective(NamedTuple):
     feet_weight: Annotated[float, Constant("1", "A4", "weight of each foot's distance")] = 5.0
     control_weight: Annotated[float, Constant("1", "A4", "weight of each control's change")] = 0.1
     limits_weight: Annotated[float, Constant("1/rad", "A", "weight of what joint limits forbid each leg")] = 3.0
-    arms_weight: Annotated[float, Constant("1/rad", "A", "weight of what joint limits and trunk forbid each arm")] = 1.0
     outside_weight: Annotated[float, Constant("1", "A4", "weight of a control's excess over [0, 1]")] = 1.0
     smoothing_m: Annotated[float, Constant("m", "A4", "rounding of the smoothed form's norms")] = 0.01
 
@@ -157,6 +157,13 @@ class Timing(NamedTuple):
     sustained_ahead_s: Annotated[float, Constant("s", "4.2", "look-ahead into the clip, sustained pose and re-entry")] = 1.0 / 6.0
     startle_s: Annotated[float, Constant("s", "4.2", "the blend to the startle pose")] = 15.0 / 120.0
     slack_share: Annotated[float, Constant("1", "4.2", "how much longer than the TTC the blend takes")] = 0.05
+
+
+class Temper(NamedTuple):
+    """What boldness does to a threat as it is felt (S9)."""
+
+    size_share: Annotated[float, Constant("1", "S9", "a timid character takes it for this much larger, a bold one smaller")] = 0.5
+    speed_share: Annotated[float, Constant("1", "S9", "and for this much faster: it leans farther away")] = 0.35
 
 
 class Threats(NamedTuple):
@@ -238,6 +245,7 @@ class Settings(NamedTuple):
     objective: Objective = Objective()
     solver: Solver = Solver()
     timing: Timing = Timing()
+    temper: Temper = Temper()
     threats: Threats = Threats()
     senses: Senses = Senses()
     blend: Blend = Blend()
