@@ -2,16 +2,17 @@
 
 from __future__ import annotations
 
+import importlib
 import sys
 from collections.abc import Iterable, Sequence
 from pathlib import Path
 from typing import Any, TypeVar
 
 from behaviours.library import library_names
-from behaviours.scenario import CharacterSpec, Scenario, check_scenario, load_scenario
+from behaviours.scenario import CharacterSpec, Scenario, check_scenario, load_scenario, parse_scenario
 from behaviours.simulation import Simulation, apply_command
 from demos.kernels import announce_compiling, forget_stale
-from demos.scenarios import find_scenario
+from demos.scenarios import FOLDER, PROGRAMS, find_scenario
 from engine.clips.clip import Clip
 from engine.clips.library import find_clip
 from engine.core.errors import BadInput
@@ -23,6 +24,11 @@ T = TypeVar("T")
 
 def open_scenario(name_or_path: str, overrides: Sequence[str] = ()) -> tuple[Scenario, Path]:
     """A scenario by name or path, and the folder that its relative paths start from."""
+    if name_or_path in PROGRAMS:
+        import tomlkit
+
+        text = tomlkit.dumps(importlib.import_module(f"demos.{name_or_path}").scenario())
+        return parse_scenario(text, name_or_path, tuple(overrides)), FOLDER
     path = find_scenario(name_or_path)
     return load_scenario(path, tuple(overrides)), path.resolve().parent
 

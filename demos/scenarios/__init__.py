@@ -1,4 +1,4 @@
-"""Scenarios that come with Brace, each a TOML file known by its name without the ending."""
+"""Scenarios that come with Brace, known by name: TOML files here, and programs of `demos` that make one."""
 
 from __future__ import annotations
 
@@ -7,10 +7,11 @@ from pathlib import Path
 from engine.core.errors import BadInput
 
 FOLDER = Path(__file__).resolve().parent
+PROGRAMS = ("gauntlet", "crowd")  # modules of demos with scenario() -> what a file would say, as plain data
 
 
 def names() -> list[str]:
-    """The names of all scenarios that come with Brace."""
+    """The names of all scenario files that come with Brace."""
     return sorted(path.stem for path in FOLDER.glob("*.toml"))
 
 
@@ -23,4 +24,5 @@ def find_scenario(name_or_path: str) -> Path:
         return path
     from demos.cli import nearest
 
-    raise BadInput("scenario", f"no file and no scenario {name_or_path!r}; {nearest(name_or_path, names())}")
+    known = [*names(), *PROGRAMS]
+    raise BadInput("scenario", f"no file and no scenario {name_or_path!r}; {nearest(name_or_path, known)}")
