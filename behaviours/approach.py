@@ -1,6 +1,7 @@
 """The way a threat comes (thesis 3.1): from its state at contact, flown backwards to where it is perceived.
 
-Azimuth and elevation say where it comes *from* in the character's heading: 0 ahead, +90 degrees its left, 180 behind, elevation up.
+Azimuth and elevation say where it comes *from* in the character's heading: 0 ahead, +90 degrees its left, 180 behind,
+elevation up.
 """
 
 from __future__ import annotations
@@ -59,8 +60,8 @@ def plan_approach(
 ) -> Approach:
     """The flight that meets `contact_m` at this speed from this direction, perceived `ttc_s` earlier.
 
-    Run backwards, a flat approach may lead under ground. `low_path` "raise" raises the elevation to the least that clears
-    the floor; "shorten" keeps the direction and perceives it later. Both are reported in the result.
+    Run backwards, a flat approach may lead under ground. `low_path` "raise" raises the elevation to the least that
+    clears the floor; "shorten" keeps the direction and perceives it later. Both are reported in the result.
     """
     if drag > 0.0:
         ttc_s = min(ttc_s, 0.5 * longest_past_s(speed_mps, drag))

@@ -1,9 +1,10 @@
-"""The transitional blend mechanism (thesis 4.3): from one still pose to another, balanced, feet held, hands on straight lines.
+"""The transitional blend mechanism (thesis 4.3): from one still pose to another, balanced, feet held, hands on
+straight lines.
 
-First pass: a chain rooted at the primary support foot, that foot eased along a line, every rotation slerped, the hands on
-straight lines by arm IK with the swivel angle interpolated. Second pass: the pelvis is moved until the COM is on the
-straight line between its two ends, the feet held by leg IK, the head's orientation slerped; then the arms once more,
-since moving the pelvis moved the shoulders.
+First pass: a chain rooted at the primary support foot, that foot eased along a line, every rotation slerped, the
+hands on straight lines by arm IK with the swivel angle interpolated. Second pass: the pelvis is moved until the COM
+is on the straight line between its two ends, the feet held by leg IK, the head's orientation slerped; then the arms
+once more, since moving the pelvis moved the shoulders.
 """
 
 from __future__ import annotations
@@ -20,7 +21,20 @@ from behaviours.timing import ease
 from engine.body import limits
 from engine.body.kinematics import centre_of_mass, joints_into
 from engine.body.limb_ik import CARRIED, KEEP, apply_arm, apply_leg, arm_swivel, leg_swivel, side_sign
-from engine.body.skeleton import ANKLES, BACK, ELBOWS, HEAD, HIPS, JOINT_COUNT, KNEES, NECK, PELVIS, SHOULDERS, TOES, WRISTS
+from engine.body.skeleton import (
+    ANKLES,
+    BACK,
+    ELBOWS,
+    HEAD,
+    HIPS,
+    JOINT_COUNT,
+    KNEES,
+    NECK,
+    PELVIS,
+    SHOULDERS,
+    TOES,
+    WRISTS,
+)
 from engine.body.two_bones import soft_reach
 from engine.maths import quaternion, vector
 
@@ -29,11 +43,14 @@ COM_GAIN = 1.12
 LEG_SOFT_M = 0.010  # a leg straightens over this length, instead of snapping straight
 LYING_LEG, STANDING_LEG = 0.2, 0.5  # hip over ankle in shares of the leg: it lies, or it may be standing
 LEG_SPARE_M = 0.0005  # and stays this much short of it, but where its own motion has it straighter
-# (share of the slerped arm's way, bow): straight; straight, but with the slerped arm's elbow; ever more the slerped arm's way,
-# with a negative share the shoulder mixed by components; then bowed out, metres, ahead and aside, round the trunk
+# (share of the slerped arm's way, bow): straight; straight, but with the slerped arm's elbow; ever more the slerped
+# arm's way, with a negative share the shoulder mixed by components; then bowed out, metres, ahead and aside, round
+# the trunk
 ARC_WAYS = np.array([
-    (0.0, 0.0), (1e-3, 0.0), (-1e-3, 0.0), (0.25, 0.0), (-0.25, 0.0), (0.5, 0.0), (-0.5, 0.0), (0.75, 0.0), (1.0, 0.0), (-1.0, 0.0),
-    (1e-3, 0.12), (-1e-3, 0.12), (0.5, 0.12), (-0.5, 0.12), (1.0, 0.12), (1e-3, 0.24), (-1e-3, 0.24), (0.5, 0.24), (1.0, 0.24),
+    (0.0, 0.0), (1e-3, 0.0), (-1e-3, 0.0), (0.25, 0.0), (-0.25, 0.0),
+    (0.5, 0.0), (-0.5, 0.0), (0.75, 0.0), (1.0, 0.0), (-1.0, 0.0),
+    (1e-3, 0.12), (-1e-3, 0.12), (0.5, 0.12), (-0.5, 0.12), (1.0, 0.12),
+    (1e-3, 0.24), (-1e-3, 0.24), (0.5, 0.24), (1.0, 0.24),
 ])  # fmt: skip
 BOW_AHEAD, BOW_ASIDE = 0.8, 0.6
 ARC_SAMPLES = 16
@@ -93,8 +110,9 @@ def primary_support(planted, ankles_m, com_m):
 def mix_joint(joint, first, last, weight, by_components):
     """A joint between two rotations: slerped; elbow, wrist and knee component by component.
 
-    Slerp would take an elbow sideways from one forearm twist to another, farther than any elbow goes. A shoulder too may be
-    better off so: from one twist to a far one slerp turns it the shorter way round, through twists that no shoulder has.
+    Slerp would take an elbow sideways from one forearm twist to another, farther than any elbow goes. A shoulder too
+    may be better off so: from one twist to a far one slerp turns it the shorter way round, through twists that no
+    shoulder has.
     """
     if by_components or joint in ELBOWS or joint in WRISTS or joint in KNEES:
         return limits.mix(first, last, weight)
@@ -151,8 +169,8 @@ def bend_toe(toe, rotations, side):
 def hold_feet(body, goals, own_lengths, knee_swivels, root_m, rotations, positions, orientations):
     """Leg IK onto the goals of both feet; lowers the pelvis first where a goal is out of a leg's reach. In place.
 
-    `own_lengths` (2,): how long the legs would be without any goal, see `drop_beyond_own`. `knee_swivels` (2,) radians, as
-    `engine.body.limb_ik.leg_swivel` measures them.
+    `own_lengths` (2,): how long the legs would be without any goal, see `drop_beyond_own`. `knee_swivels` (2,)
+    radians, as `engine.body.limb_ik.leg_swivel` measures them.
     """
     drop = 0.0
     for side in range(2):
@@ -183,9 +201,10 @@ def hold_feet(body, goals, own_lengths, knee_swivels, root_m, rotations, positio
 def drop_beyond_own(body, hip_m, ankle_m, side, own_length_m):
     """How far the hip has to sink to keep the ankle in the leg's reach, metres.
 
-    It begins before the leg is straight and never lets it get quite there, so that the knee does not snap; a leg that is
-    as long as its own motion has it asks for nothing, however straight that is. Where the foot stands farther off sideways than the
-    leg is long, sinking helps no further: as far as it does. A leg that lies bears nothing, and no sinking could help it.
+    It begins before the leg is straight and never lets it get quite there, so that the knee does not snap; a leg that
+    is as long as its own motion has it asks for nothing, however straight that is. Where the foot stands farther off
+    sideways than the leg is long, sinking helps no further: as far as it does. A leg that lies bears nothing, and no
+    sinking could help it.
     """
     full = vector.length(body.offset_m[KNEES[side]]) + vector.length(body.offset_m[ANKLES[side]])
     wanted = vector.distance(hip_m, ankle_m)
@@ -238,8 +257,9 @@ def mix_angle(first_rad, last_rad, weight):
 def arms_between(body, start, end, weight, arcs, rotations, positions, orientations):
     """Both arms on their way from end to end (thesis 4.3), in place. Returns where their wrists are to be, (2, 3).
 
-    The hand goes straight, the swivel angle is interpolated. With a share `arcs` (2, 2) that is not 0 the hand goes by that much on the way
-    that slerping the arm takes it, and the elbow is left where that has it. The arms come here slerped. The second of `arcs` bows the way out by so many metres at its middle.
+    The hand goes straight, the swivel angle is interpolated. With a share `arcs` (2, 2) that is not 0 the hand goes
+    by that much on the way that slerping the arm takes it, and the elbow is left where that has it. The arms come
+    here slerped. The second of `arcs` bows the way out by so many metres at its middle.
     """
     targets = np.empty((2, 3))
     for side in range(2):
@@ -282,7 +302,8 @@ def blend_trunk_and_legs(body, start, end, weight, support, goals, arcs, root_m,
 
 @njit(cache=True)
 def blend_into(body, capsules, start, end, weight, support, goals, arcs, root_m, rotations):
-    """The pose a weight (already eased, 0 to 1) of the way from one end to the other. Writes root_m (3,) and rotations (J, 4).
+    """The pose a weight (already eased, 0 to 1) of the way from one end to the other. Writes root_m (3,) and
+    rotations (J, 4).
 
     arcs (2, 2): see `arms_between`. Returns how far either hand was led off its way to go round the body, metres.
     """
@@ -319,8 +340,9 @@ def arm_trouble(body, capsules, start, end, weight, side, rotations, positions, 
 def choose_arcs(body, capsules, start, end, support, goals):
     """How each hand goes, (2, 2), one of ARC_WAYS: the first, a straight line, unless that is no way for an arm.
 
-    A line that leads deep through the body, or where the shoulder cannot follow, is bent towards the way that slerping the arm
-    takes, or round the trunk: by the first way that is good enough, else by the one that leaves least wrong.
+    A line that leads deep through the body, or where the shoulder cannot follow, is bent towards the way that
+    slerping the arm takes, or round the trunk: by the first way that is good enough, else by the one that leaves
+    least wrong.
     """
     arcs, least = np.zeros((2, 2)), np.full(2, np.inf)
     found = np.zeros(2, np.bool_)

@@ -1,8 +1,9 @@
 """Arms kept out of the way of the body while they blend: hands and forearms out of head and trunk and each other.
 
-A straight line between two good places for a hand often leads through the head or the chest. The arm is then pushed out by as much
-as it would be too deep, and no more: what the two ends of the blend have themselves is let be, so a blend still begins and
-ends exactly where it should. All constraints push at once, from one state, so that left and right are treated alike.
+A straight line between two good places for a hand often leads through the head or the chest. The arm is then pushed
+out by as much as it would be too deep, and no more: what the two ends of the blend have themselves is let be, so a
+blend still begins and ends exactly where it should. All constraints push at once, from one state, so that left and
+right are treated alike.
 """
 
 from __future__ import annotations
@@ -56,7 +57,8 @@ def yielding(excess_m):
 
 @njit(cache=True)
 def bring_arms(body, targets_m, turns, rotations, positions, orientations):
-    """Both wrists onto their targets (2, 3) the shortest way, then the elbows about shoulder - wrist by turns (2,). In place.
+    """Both wrists onto their targets (2, 3) the shortest way, then the elbows about shoulder - wrist by turns (2,).
+    In place.
 
     A turn is counted from where the elbow is: any fixed direction to count from turns over somewhere, and arms that are
     wrapped around a head are there.
@@ -70,7 +72,9 @@ def bring_arms(body, targets_m, turns, rotations, positions, orientations):
 
 @njit(cache=True)
 def elbow_travel(positions, side):
-    """How an elbow moves as its swivel grows: metres a radian, world. The swivel's sense is away from the body on both sides."""
+    """How an elbow moves as its swivel grows: metres a radian, world. The swivel's sense is away from the body on
+    both sides.
+    """
     shoulder, elbow, wrist = positions[SHOULDERS[side]], positions[ELBOWS[side]], positions[WRISTS[side]]
     axis = vector.unit(vector.subtract(wrist, shoulder), (0.0, 0.0, -1.0))
     return vector.scale(vector.cross(axis, vector.subtract(elbow, shoulder)), 1.0 - 2.0 * side)
@@ -78,7 +82,9 @@ def elbow_travel(positions, side):
 
 @njit(cache=True)
 def _pull(point_share, is_hand, travel, normal):
-    """What a push along a normal at one place of an arm asks of wrist and swivel: (share of the wrist, metres a radian)."""
+    """What a push along a normal at one place of an arm asks of wrist and swivel: (share of the wrist, metres a
+    radian).
+    """
     if is_hand:
         return 1.0, 0.0
     return point_share, (1.0 - point_share) * vector.inner(travel, normal)
@@ -86,7 +92,8 @@ def _pull(point_share, is_hand, travel, normal):
 
 @njit(cache=True)
 def push_arms(capsules, levels_m, positions, orientations, targets_m, turns):
-    """One push: how to move the wrists' targets (2, 3) and turn the elbows (2,) so that no pair is deeper than its level (P,).
+    """One push: how to move the wrists' targets (2, 3) and turn the elbows (2,) so that no pair is deeper than its
+    level (P,).
 
     Writes both. Returns whether anything is to be done.
     """

@@ -40,7 +40,7 @@ class Playback(Component):
 
 
 class Posture(Component):
-    """The pose that is shown now and the one shown a tick ago (drawing runs between them; velocities come from them)."""
+    """The pose shown now and the one shown a tick ago (drawing runs between them; velocities come from them)."""
 
     root_m = column(3)
     rotations = column(JOINT_COUNT, 4)
@@ -145,7 +145,9 @@ class Blow(Component):
 
 
 class Feet(Component):
-    """What each foot is about: it goes with the pose, is held where it stands, or makes one step. Axis 0 is left, right."""
+    """What each foot is about: it goes with the pose, is held where it stands, or makes one step. Axis 0 is left,
+    right.
+    """
 
     mode = column(2, dtype=np.int64)  # FootMode
     ankle_m = column(2, 3)  # held here, or stepping to here

@@ -21,12 +21,15 @@ from engine.maths import quaternion, vector
 
 FREE, HELD, STEPPING = int(FootMode.FREE), int(FootMode.HELD), int(FootMode.STEPPING)
 
-LIFTED, LANDS = 0.35, 0.6  # shares of a step: up to the first a foot that stood still bears, from the second on it does again
+LIFTED, LANDS = (
+    0.35,
+    0.6,
+)  # shares of a step: up to the first a foot that stood still bears, from the second on it does again
 
 
 @njit(cache=True)
 def goals_at(tick, mode, ankle_m, turned, toe, from_m, from_turned, from_toe, from_down, lift_m, since, ticks):
-    """Where both feet are to be at a tick: FootGoals. Arrays are one row of the `Feet` columns, left and right first."""
+    """Where both feet are to be at a tick: FootGoals. Arrays are one row of the `Feet` columns, left first."""
     goal_m = np.empty((2, 3))
     goal_turned, goal_toe = np.empty((2, 4)), np.empty((2, 4))
     bound, bears = np.empty(2, np.bool_), np.empty(2)
@@ -36,7 +39,9 @@ def goals_at(tick, mode, ankle_m, turned, toe, from_m, from_turned, from_toe, fr
         progress = 1.0 if mode[side] != STEPPING else (tick - since[side]) / ticks[side]
         eased = ease(progress)
         if mode[side] == STEPPING:
-            bears[side] = max(from_down[side] * (1.0 - ease(progress / LIFTED)), ease((progress - LANDS) / (1.0 - LANDS)))
+            bears[side] = max(
+                from_down[side] * (1.0 - ease(progress / LIFTED)), ease((progress - LANDS) / (1.0 - LANDS))
+            )
         place = vector.mix(from_m[side], ankle_m[side], eased)
         q = quaternion.slerp(from_turned[side], turned[side], eased)
         bent = quaternion.slerp(from_toe[side], toe[side], eased)
@@ -114,7 +119,9 @@ def step(feet, row: int, side: int, start: Footing, end: Footing, tick: int, tic
 
 
 def hold_or_step(feet, row: int, side: int, start: Footing, end: Footing, tick: int, ticks: float, balance) -> None:
-    """Holds a foot that is as good as there already; else steps it there. It stands until `tick`, if that is yet to come."""
+    """Holds a foot that is as good as there already; else steps it there. It stands until `tick`, if that is yet to
+    come.
+    """
     near = vector.distance(start.ankle_m, end.ankle_m) < balance.foot_tolerance_m * 10.0
     if near and quaternion.angle_between(start.turned, end.turned) < math.radians(0.5):
         hold(feet, row, side, start)

@@ -64,13 +64,23 @@ def fly_all(rows, position, velocity, spin, turned, radius_m, drag, restitution,
     """One tick for the balls in these rows of the `Flight` columns."""
     for row in rows:
         fly_one_tick(
-            position[row], velocity[row], spin[row], turned[row], radius_m[row], drag[row], restitution[row], friction[row], dt_s
+            position[row],
+            velocity[row],
+            spin[row],
+            turned[row],
+            radius_m[row],
+            drag[row],
+            restitution[row],
+            friction[row],
+            dt_s,
         )
 
 
 @system(Stage.SENSE, reads=(Flight, Posture), writes=(Flight,))
 def clear_away(world, tick):
-    """Balls that have lain still for long, or are far from everybody, are taken away: a state that is played for hours stays small."""
+    """Balls that have lain still for long, or are far from everybody, are taken away: a state that is played for
+    hours stays small.
+    """
     rows = world.rows(Flight)
     if not len(rows):
         return

@@ -48,7 +48,9 @@ def _keep(out, now, ahead, dt_s):
 
 
 @njit(cache=True)
-def measure_seam(source_root, source_rot, later_root, later_rot, root, rot, ahead_root, ahead_rot, dt_s, out_root, out_joints):
+def measure_seam(
+    source_root, source_rot, later_root, later_rot, root, rot, ahead_root, ahead_rot, dt_s, out_root, out_joints
+):
     """What the shown motion had beyond the new source, at the last shown tick.
 
     `source` is the new source at the last shown tick and `later` a moment on; `root`, `rot` what is shown at that tick,
@@ -70,7 +72,9 @@ def carry_on(root, rot, before_root, before_rot, ahead_root, ahead_rot):
     for k in range(3):
         ahead_root[k] = 2.0 * root[k] - before_root[k]
     for j in range(JOINT_COUNT):
-        q = quaternion.normalise(quaternion.multiply(quaternion.multiply(rot[j], quaternion.conjugate(before_rot[j])), rot[j]))
+        q = quaternion.normalise(
+            quaternion.multiply(quaternion.multiply(rot[j], quaternion.conjugate(before_rot[j])), rot[j])
+        )
         for k in range(4):
             ahead_rot[j, k] = q[k]
 

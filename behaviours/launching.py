@@ -6,7 +6,7 @@ import math
 
 from behaviours.approach import Approach, coming_from, plan_approach
 from behaviours.components import Character, Feet, Flight, Playback, Posture, Reaction, Script, Threat
-from behaviours.perceived import AIMS, aim_of, target_centre
+from behaviours.perceived import aim_of, target_centre
 from behaviours.playing import body_of, heading_of, perception_clip_s
 from behaviours.prepare import aim_point, prepare
 from behaviours.protection import felt, look_ahead, perceive
@@ -80,7 +80,7 @@ def is_due(world, spec: ThreatSpec, row: int, tick: int) -> bool:
 
 
 def throw_scripted(world, spec: ThreatSpec, row: int, tick: int) -> None:
-    """Puts a scripted threat where it has to be now to arrive as its script says; the character perceives it at once."""
+    """Puts a scripted threat where it has to be now to arrive as its script says; it is perceived at once."""
     make = make_of(spec, speed_of(spec))
     way = aimed_approach(world, spec, make, row)
     entity = world.spawn(

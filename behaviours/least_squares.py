@@ -1,7 +1,8 @@
 """One step of bounded least squares (Levenberg 1944, Marquardt 1963), for objectives that are a sum of squares.
 
-The second solver beside the thesis's quasi-Newton one: it uses the residuals themselves, not only their sum, so a handful of
-steps is enough, and it keeps variables inside their bounds instead of penalising them. No BLAS: the same bits every run.
+The second solver beside the thesis's quasi-Newton one: it uses the residuals themselves, not only their sum, so a
+handful of steps is enough, and it keeps variables inside their bounds instead of penalising them. No BLAS: the same
+bits every run.
 """
 
 from __future__ import annotations
@@ -34,8 +35,8 @@ def normal_equations(jacobian, residuals, matrix, slope):
 def bounded_step(matrix, slope, point, low, high, damping, step):
     """Writes the damped step (n,) that solves (J'J + damping * diag) step = -J'r, staying within low and high (n,).
 
-    A variable that stands on its bound and is pushed outwards is held there; one whose step would cross its bound stops on
-    it, and the others are solved again with that known, until all agree.
+    A variable that stands on its bound and is pushed outwards is held there; one whose step would cross its bound
+    stops on it, and the others are solved again with that known, until all agree.
     """
     n = len(point)
     held = np.zeros(n, np.bool_)

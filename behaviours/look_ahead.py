@@ -1,8 +1,8 @@
 """How far along its way the pelvis is when it meets the threat (Hermens 2006, 3.3 and 4.2; specification A4).
 
-The look-ahead keeps the body's momentum, but over a foot that stays it can ask for more than a leg can give: too long, or
-bent back beyond the hip's limit, or the shin forward beyond the ankle's, all the more when the body then braces itself. The
-pelvis is drawn within reach, and no farther ahead than the planted legs allow.
+The look-ahead keeps the body's momentum, but over a foot that stays it can ask for more than a leg can give: too
+long, or bent back beyond the hip's limit, or the shin forward beyond the ankle's, all the more when the body then
+braces itself. The pelvis is drawn within reach, and no farther ahead than the planted legs allow.
 """
 
 from __future__ import annotations

@@ -1,4 +1,6 @@
-"""Measures of a run, from what an Observer has kept: the figures that `brace react` reports and `brace bench --motion` sums up."""
+"""Measures of a run, from what an Observer has kept: the figures that `brace react` reports and `brace bench
+--motion` sums up.
+"""
 
 from __future__ import annotations
 
@@ -15,7 +17,13 @@ from engine.body.skeleton import WRISTS, Pose
 GRAVITY = 9.80665
 PHYSICS_HZ = 480.0
 HIC_WINDOW_S = 0.015
-OWN = (Phase.STARTLE, Phase.PROTECT, Phase.HOLD, Phase.RECOVER_BLEND, Phase.RECOVER_RETURN)  # ours, outside the physics alone
+OWN = (
+    Phase.STARTLE,
+    Phase.PROTECT,
+    Phase.HOLD,
+    Phase.RECOVER_BLEND,
+    Phase.RECOVER_RETURN,
+)  # ours, outside the physics alone
 
 
 def ours(track: Track) -> np.ndarray:
@@ -29,7 +37,9 @@ def foot_slide_max_m(track: Track) -> float:
     planted, worst = np.array(track.planted) & ours(track)[:, None], 0.0
     for side in range(2):
         for first, last in runs(planted[:, side]):
-            soles = np.array([support.sole_points(track.body, positions[k], orientations[k])[side] for k in range(first, last + 1)])
+            soles = np.array(
+                [support.sole_points(track.body, positions[k], orientations[k])[side] for k in range(first, last + 1)]
+            )
             worst = max(worst, float(np.linalg.norm(soles - soles[0], axis=-1).max()))
     return worst
 
@@ -41,15 +51,23 @@ def runs(flags: np.ndarray) -> list[tuple[int, int]]:
 
 
 def distance_from_line(points_m: np.ndarray, start_m: np.ndarray, end_m: np.ndarray) -> np.ndarray:
-    """(N,) how far points (N, 3) are from a straight line, from its start on: a damped overshoot goes on beyond its end."""
+    """(N,) how far points (N, 3) are from a straight line, from its start on: a damped overshoot goes on beyond its
+    end.
+    """
     axis = end_m - start_m
     square = float((axis * axis).sum())
-    t = np.maximum(((points_m - start_m) * axis).sum(axis=1) / square, 0.0) if square > 1e-12 else np.zeros(len(points_m))
+    t = (
+        np.maximum(((points_m - start_m) * axis).sum(axis=1) / square, 0.0)
+        if square > 1e-12
+        else np.zeros(len(points_m))
+    )
     return np.linalg.norm(points_m - (start_m + t[:, None] * axis), axis=1)
 
 
 def hand_line_deviation_max_m(lines: list[Line]) -> float:
-    """How far a blend's source takes a wrist off the straight line between its two ends (thesis 4.3), where nothing is in the way."""
+    """How far a blend's source takes a wrist off the straight line between its two ends (thesis 4.3), where nothing
+    is in the way.
+    """
     return max(
         (
             float(distance_from_line(line.between_m[None, w], line.start_m[w], line.end_m[w])[0])
@@ -67,7 +85,7 @@ def com_line_deviation_max_m(lines: list[Line]) -> float:
 
 
 def com_margin_min_m(track: Track) -> float | None:
-    """The least margin of the COM inside the planted feet's polygon during protection and recovery; None without any."""
+    """The least margin of the COM inside the planted feet's polygon in protection and recovery; None without any."""
     positions, orientations = joints_of(track.body, track.pose)
     com, least = com_of(track.body, track.pose), None
     for k in np.flatnonzero(ours(track)):
@@ -79,7 +97,9 @@ def com_margin_min_m(track: Track) -> float | None:
 
 
 def joint_limit_excess_max_rad(track: Track, clip_excess_rad: np.ndarray) -> float:
-    """How far any joint goes beyond its limit and beyond what the clip itself (J,) oversteps it by, outside the physics."""
+    """How far any joint goes beyond its limit and beyond what the clip itself (J,) oversteps it by, outside the
+    physics.
+    """
     chosen = ours(track)
     if not chosen.any():
         return 0.0
@@ -88,7 +108,9 @@ def joint_limit_excess_max_rad(track: Track, clip_excess_rad: np.ndarray) -> flo
 
 
 def overlap_max_m(track: Track, clip_overlap_m: np.ndarray) -> tuple[float, str]:
-    """How deep a hand or forearm is inside head, trunk or the other arm beyond what the clip itself (P,) has; and which."""
+    """How deep a hand or forearm is inside head, trunk or the other arm beyond what the clip itself (P,) has; and
+    which.
+    """
     chosen = ours(track)
     if not chosen.any():
         return 0.0, ""
@@ -98,7 +120,9 @@ def overlap_max_m(track: Track, clip_overlap_m: np.ndarray) -> tuple[float, str]
 
 
 def seam_jumps(track: Track) -> tuple[float, float]:
-    """The greatest jump of any joint at any seam: metres, and m/s between the one-sided velocities. Impulses are no seams."""
+    """The greatest jump of any joint at any seam: metres, and m/s between the one-sided velocities. Impulses are no
+    seams.
+    """
     if not track.seams:
         return 0.0, 0.0
     place = max(float(np.linalg.norm(s.taken_up_m - s.shown_m, axis=1).max()) for s in track.seams)
@@ -116,7 +140,9 @@ def head_acceleration_g(track: Track) -> np.ndarray:
 
 
 def hic15(acceleration_g: np.ndarray) -> float:
-    """Head injury criterion over at most 15 ms: max of (mean a)^2.5 (t2 - t1), a in g, time in seconds (Versace 1971)."""
+    """Head injury criterion over at most 15 ms: max of (mean a)^2.5 (t2 - t1), a in g, time in seconds (Versace
+    1971).
+    """
     total = np.concatenate([[0.0], np.cumsum(acceleration_g)]) / PHYSICS_HZ
     best = 0.0
     for steps in range(1, int(HIC_WINDOW_S * PHYSICS_HZ) + 1):

@@ -1,7 +1,9 @@
-"""Quasi-Newton minimisation (BFGS; Hermens 2006, 3.3 after Press et al., *Numerical Recipes*, 10.7) that asks and is told.
+"""Quasi-Newton minimisation (BFGS; Hermens 2006, 3.3 after Press et al., *Numerical Recipes*, 10.7) that asks and is
+told.
 
-The search never calls the function it minimises. It holds a point to try; whoever drives it evaluates there and tells the
-value; the search moves on. So any kernel can use it with a loop of three lines, compiled and cached with its own objective:
+The search never calls the function it minimises. It holds a point to try; whoever drives it evaluates there and tells
+the value; the search moves on. So any kernel can use it with a loop of three lines, compiled and cached with its own
+objective:
 
     search = new_search(start)
     while not finished(search):

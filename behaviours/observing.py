@@ -1,4 +1,6 @@
-"""Watching a run: what one character did, tick by tick, kept beside the world for reports and films. Never part of the state."""
+"""Watching a run: what one character did, tick by tick, kept beside the world for reports and films. Never part of
+the state.
+"""
 
 from __future__ import annotations
 
@@ -104,7 +106,13 @@ def _line(world, row: int, tick: int, body: Body) -> Line:
     ends = (Pose(b.from_root_m[row], b.from_rotations[row]), Pose(b.to_root_m[row], b.to_rotations[row]))
     joints_m = joints_of(body, source)[0]
     start_m, end_m = (joints_of(body, end)[0] for end in ends)
-    on_line = tuple(abs(b.arcs[row, side, 0]) < 0.01 and b.arcs[row, side, 1] == 0.0 and led_m[side] == 0.0 and in_reach(body, side, joints_m) for side in range(2))
+    on_line = tuple(
+        abs(b.arcs[row, side, 0]) < 0.01
+        and b.arcs[row, side, 1] == 0.0
+        and led_m[side] == 0.0
+        and in_reach(body, side, joints_m)
+        for side in range(2)
+    )
     return Line(
         tick, joints_m, start_m, end_m, on_line, com_of(body, source), (com_of(body, ends[0]), com_of(body, ends[1]))
     )
@@ -120,7 +128,9 @@ def in_reach(body: Body, side: int, joints_m: np.ndarray) -> bool:
 
 
 def _note_seam(world, row: int, tick: int, track: Track) -> None:
-    """Both sides of a phase that began with this tick: the seam lies at the tick before, the last that the old source showed."""
+    """Both sides of a phase that began with this tick: the seam lies at the tick before, the last that the old source
+    showed.
+    """
     if not track.phase or world[Reaction].since[row] != tick or track.phase[-1] == world[Reaction].phase[row]:
         return
     if world[Reaction].phase[row] == Phase.RESPOND:
@@ -131,7 +141,14 @@ def _note_seam(world, row: int, tick: int, track: Track) -> None:
     later = _joints(track.body, settled_pose(world, row, seam_tick + MOMENT))
     moment_s = MOMENT * TICK_S
     track.seams.append(
-        Seam(tick, Phase(int(world[Reaction].phase[row])), shown, taken_up, (shown - track.before) / moment_s, (later - taken_up) / moment_s)
+        Seam(
+            tick,
+            Phase(int(world[Reaction].phase[row])),
+            shown,
+            taken_up,
+            (shown - track.before) / moment_s,
+            (later - taken_up) / moment_s,
+        )
     )
 
 

@@ -39,7 +39,7 @@ def head_centre_m(body: Body) -> tuple[float, float, float]:
 
 
 def aim_of(body: Body, name: str) -> tuple[int, tuple[float, float, float]]:
-    """(joint, point in its frame, metres) of a target by name: head, torso, pelvis or a joint. ValueError lists them."""
+    """(joint, point in its frame, metres) of a target by name: head, torso, pelvis, a joint. ValueError lists them."""
     if name == "head":
         return HEAD, head_centre_m(body)
     if name == "torso":

@@ -54,7 +54,9 @@ def play_from(world, row: int, tick: int, time_s: float) -> None:
 
 
 def perception_clip_s(world, row: int, tick: int) -> float:
-    """The clip time that a reaction starts from: the present one, or the one that an interrupted reaction set out from."""
+    """The clip time that a reaction starts from: the present one, or the one that an interrupted reaction set out
+    from.
+    """
     if world[Reaction].phase[row] == Phase.PLAY:
         return clip_time_s(world, row, tick)
     return float(world[Reaction].clip_s[row])

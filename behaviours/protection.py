@@ -1,4 +1,6 @@
-"""From a threat in the world to the sustained pose of the character it comes at (thesis 3): what the pose is computed from."""
+"""From a threat in the world to the sustained pose of the character it comes at (thesis 3): what the pose is computed
+from.
+"""
 
 from __future__ import annotations
 
@@ -67,7 +69,8 @@ def perceived_threat(world, row: int, threat_row: int) -> PerceivedThreat:
 
 
 def look_ahead(world, row: int, clip_s: float, ttc_s: float) -> tuple[Pose, np.ndarray, bool]:
-    """The clip's pose that pelvis and lifted foot come from, which feet stand, and whether that is the clip's next landing (A4).
+    """The clip's pose that pelvis and lifted foot come from, which feet stand, and whether that is the clip's next
+    landing (A4).
 
     With a foot on the ground: the clip 1/6 s on. In flight: the landing, if it comes within the time to contact.
     """
@@ -97,8 +100,8 @@ class Defence(NamedTuple):
 def defend(world, row: int, threat: PerceivedThreat, clip_s: float, ttc_s: float) -> Defence:
     """The protective pose of a character as it is now.
 
-    It is always worked out as for a threat from the left: one from the right is mirrored, with all that it is aimed at, and the
-    answer mirrored back. A search stops where rounding lets it; so it stops at the same place for both.
+    It is always worked out as for a threat from the left: one from the right is mirrored, with all that it is aimed
+    at, and the answer mirrored back. A search stops where rounding lets it; so it stops at the same place for both.
     """
     body, now = body_of(world, row), shown(world, row)[0]
     ahead, planted, landing = look_ahead(world, row, clip_s, ttc_s)

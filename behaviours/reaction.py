@@ -4,8 +4,8 @@
                             |          `-> down (knocked off the feet)
                             `-> hold (nothing came) -> recover_return
 
-`begin_*` enters a phase: it sets what the phase's source of poses needs (`behaviours.sources`), plans the feet, and keeps
-what is left of the old motion (`behaviours.seams`). The systems below say when.
+`begin_*` enters a phase: it sets what the phase's source of poses needs (`behaviours.sources`), plans the feet, and
+keeps what is left of the old motion (`behaviours.seams`). The systems below say when.
 """
 
 from __future__ import annotations
@@ -56,7 +56,9 @@ def enter(world, row: int, tick: int, phase: Phase) -> None:
 
 
 def moment_before(world, row: int, tick: int) -> Pose:
-    """What was shown a moment before the last tick, asked of the source that was in force. Before anything is changed."""
+    """What was shown a moment before the last tick, asked of the source that was in force. Before anything is
+    changed.
+    """
     return Pose(*settled_pose(world, row, tick - 1 - seams.MOMENT))
 
 
@@ -82,7 +84,9 @@ def begin_blend(world, row: int, tick: int, start: Pose, end: Pose, ticks: float
 
 
 def begin_startle(world, row: int, tick: int, threat_row: int) -> None:
-    """The reflex (3.2.6): a fifth of the way to a recoil, the head towards the threat, the standing feet where they are."""
+    """The reflex (3.2.6): a fifth of the way to a recoil, the head towards the threat, the standing feet where they
+    are.
+    """
     settings = world.assets.settings
     old = moment_before(world, row, tick)
     now, _ = seams.shown(world, row)
@@ -98,12 +102,16 @@ def begin_startle(world, row: int, tick: int, threat_row: int) -> None:
 
 
 def standing_in(world, row: int, tick: int, pose: Pose) -> Pose:
-    """The pose with the held feet where they are held, the pelvis lowered as far as that takes: an end that can be reached."""
+    """The pose with the held feet where they are held, the pelvis lowered as far as that takes: an end that can be
+    reached.
+    """
     body = body_of(world, row)
     end = blend_end(body, capsules_of(world, row), *pose)
     goals = foot_plan.goals_of(world[Feet], row, tick)
     swivels = knee_swivels_between(end, end, 0.0)
-    hold_feet(body, goals, leg_lengths(end.positions), swivels, end.root_m, end.rotations, end.positions, end.orientations)
+    hold_feet(
+        body, goals, leg_lengths(end.positions), swivels, end.root_m, end.rotations, end.positions, end.orientations
+    )
     return Pose(end.root_m, end.rotations)
 
 
@@ -120,7 +128,7 @@ def plant_standing_feet(world, row: int, tick: int) -> None:
 
 def begin_protecting(world, row: int, tick: int) -> None:
     """The blend to the sustained pose, stretched by the slack so that it is never reached early (4.2)."""
-    settings, s, r = world.assets.settings, world[Sustained], world[Reaction]
+    settings, s = world.assets.settings, world[Sustained]
     old = moment_before(world, row, tick)
     now, _ = seams.shown(world, row)
     sustained = Pose(s.root_m[row].copy(), s.rotations[row].copy())
@@ -132,7 +140,9 @@ def begin_protecting(world, row: int, tick: int) -> None:
 
 
 def protecting_ticks(world, row: int, tick: int) -> float:
-    """How long the movement takes: up to contact; or, angle-free (4.2), as long as it would against a threat from ahead."""
+    """How long the movement takes: up to contact; or, angle-free (4.2), as long as it would against a threat from
+    ahead.
+    """
     r, timing = world[Reaction], world.assets.settings.timing
     left = max(1, int(r.contact[row]) - tick + 1)
     if not timing.angle_free or not world.alive(int(r.threat[row])):

@@ -1,8 +1,9 @@
 """Recovery (thesis 4.1.3): back to a meaningful motion, in two parts.
 
-Part one blends two sequences: the running simulation, and the sustained pose held and then a quarter of the way to the return
-pose. Part two is the rest of the way. The return blend thus lasts 500 ms, the first 125 of them in part one (A9). The
-return pose is the clip 1/6 s after perception, its path shifted so that the foot which stands there stands where it stood.
+Part one blends two sequences: the running simulation, and the sustained pose held and then a quarter of the way to
+the return pose. Part two is the rest of the way. The return blend thus lasts 500 ms, the first 125 of them in part
+one (A9). The return pose is the clip 1/6 s after perception, its path shifted so that the foot which stands there
+stands where it stood.
 """
 
 from __future__ import annotations
@@ -38,7 +39,9 @@ def return_blend_ticks(world) -> float:
 
 
 def begin_recovery(world, row: int, tick: int) -> None:
-    """Part one: sets the feet down where the blow has left them, the sustained pose over them, and the way back from there."""
+    """Part one: sets the feet down where the blow has left them, the sustained pose over them, and the way back from
+    there.
+    """
     recovery = world.assets.settings.recovery
     stand_where_the_blow_left(world, row, tick)
     move_sustained_over_feet(world, row)
@@ -144,4 +147,3 @@ def has_fallen(world, row: int) -> bool:
     standing_m = footing.leg_length_m(body, 0)
     low = at[PELVIS, 2] < recovery.fallen_hip_share * standing_m
     return bool(low or support.margin_m(hull, capture) < -recovery.capture_beyond_m)
-

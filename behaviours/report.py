@@ -18,7 +18,9 @@ REACTED = (Phase.STARTLE, Phase.PROTECT, Phase.HOLD, Phase.RESPOND, Phase.DOWN) 
 
 def event_rows(world) -> list[dict[str, Any]]:
     """Every event as plain data, in order."""
-    return [{"t_s": event.tick * TICK_S, "kind": event.kind, "entity": event.entity, **event.data} for event in world.events]
+    return [
+        {"t_s": event.tick * TICK_S, "kind": event.kind, "entity": event.entity, **event.data} for event in world.events
+    ]
 
 
 def phase_rows(track: Track) -> list[dict[str, Any]]:
@@ -68,7 +70,9 @@ def clips_excess_rad(clips) -> np.ndarray:
 
 
 def clips_overlap_m(clips) -> np.ndarray:
-    """(P,) how deep those clips have their arms in head, trunk and each other themselves, at most; see `behaviours.overlap`."""
+    """(P,) how deep those clips have their arms in head, trunk and each other themselves, at most; see
+    `behaviours.overlap`.
+    """
     return np.max([overlaps_m(clip.body, clip.pose).max(axis=0) for clip in clips], axis=0)
 
 
@@ -84,8 +88,12 @@ def recovered_to(track: Track, clips) -> str | None:
 
 
 def report_of(world, tracks: dict[int, Track]) -> dict[str, Any]:
-    """The whole report. The first character's phases and metrics at the top level; all of them in `characters` if there are more."""
-    accounts = [{"phases": phase_rows(track), "metrics": metrics_of(world, row, track)} for row, track in tracks.items()]
+    """The whole report. The first character's phases and metrics at the top level; all of them in `characters` if
+    there are more.
+    """
+    accounts = [
+        {"phases": phase_rows(track), "metrics": metrics_of(world, row, track)} for row, track in tracks.items()
+    ]
     report = {"events": event_rows(world), **accounts[0], "digest": world.digest(), "ticks": world.tick}
     if len(accounts) > 1:
         report["characters"] = accounts

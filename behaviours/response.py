@@ -1,7 +1,8 @@
 """The dynamic response (thesis 4.1.2, after Zordan et al. 2005): contact, the blow, and the body under physics.
 
-Contact is a matter of geometry, never of the predicted time: the ball is swept against the body's capsules between two ticks. From
-then on a rigid articulated body takes over in the pose and with the velocities it has, pulled towards the sustained pose.
+Contact is a matter of geometry, never of the predicted time: the ball is swept against the body's capsules between
+two ticks. From then on a rigid articulated body takes over in the pose and with the velocities it has, pulled towards
+the sustained pose.
 """
 
 from __future__ import annotations
@@ -80,7 +81,11 @@ def deal_blow(world, row: int) -> tuple[ragdoll.Push, ...]:
     if b.ball[row] == NOBODY:
         return ()
     push = ragdoll.Push(
-        int(b.joint[row]), b.place_m[row].copy(), b.impulse_Ns[row].copy(), float(b.elapsed_s[row]), float(b.lasts_s[row])
+        int(b.joint[row]),
+        b.place_m[row].copy(),
+        b.impulse_Ns[row].copy(),
+        float(b.elapsed_s[row]),
+        float(b.lasts_s[row]),
     )
     if world.alive(int(b.ball[row])):
         share = ragdoll.share_in(push, push.since_s, push.since_s + TICK_S)
@@ -111,7 +116,21 @@ def carry_ball(world, row: int, model) -> None:
 
 @system(
     Stage.SETTLE,
-    reads=(Posture, Character, Flight, Reaction, Playback, Ragdoll, Struck, Blow, Sustained, Feet, Residual, Threat, Blend),
+    reads=(
+        Posture,
+        Character,
+        Flight,
+        Reaction,
+        Playback,
+        Ragdoll,
+        Struck,
+        Blow,
+        Sustained,
+        Feet,
+        Residual,
+        Threat,
+        Blend,
+    ),
     writes=(Reaction, Ragdoll, Struck, Blow, Sustained, Feet, Residual, Flight, Threat),
 )
 def meet_balls(world, tick):
@@ -120,7 +139,11 @@ def meet_balls(world, tick):
     for ball in world.rows(Flight):
         for row in world.rows(Posture, Character):
             reach_m = f.radius_m[ball] + NEAR_M + vector.distance(f.before_m[ball], f.position_m[ball])
-            if f.held[ball] or world[Reaction].phase[row] == Phase.STOPPED or vector.distance(f.position_m[ball], p.root_m[row]) > reach_m:
+            if (
+                f.held[ball]
+                or world[Reaction].phase[row] == Phase.STOPPED
+                or vector.distance(f.position_m[ball], p.root_m[row]) > reach_m
+            ):
                 continue
             now, before = shown(world, row)
             body = body_of(world, row)
@@ -140,7 +163,7 @@ def strike(world, row: int, ball: int, hit: impact.Hit, tick: int) -> None:
     """A contact: the impulse, what it does to the ball, and, unless it is a mere touch, to the body."""
     response = world.assets.settings.response
     model = world.assets.models[int(world[Character].body[row])]
-    now, _ = shown(world, row)
+    _now, _ = shown(world, row)
     simulated = world[Ragdoll].active[row] and world[Reaction].phase[row] in (Phase.RESPOND, Phase.DOWN)
     state = world[Ragdoll].state[row] if simulated else moving_state(world, row, tick, model)
     thrown = ball_at(world, ball, place_in_world(world, row, hit), hit.normal)
@@ -244,7 +267,8 @@ def begin_response(world, row: int, tick: int, state: np.ndarray) -> None:
 def lateness_s(world, row: int, ball: int, at_s: float, hit: impact.Hit) -> float:
     """Contact time against plan: how much later than planned, once the flight that the surface saved is counted in.
 
-    The plan brings the ball's centre to the target; the surface that it met stands before that, by so many metres of flight.
+    The plan brings the ball's centre to the target; the surface that it met stands before that, by so many metres of
+    flight.
     """
     r, t = world[Reaction], world[Threat]
     if r.threat[row] != world.entity(ball):

@@ -7,6 +7,7 @@ its path and, where the file tells, its line.
 from __future__ import annotations
 
 import difflib
+import itertools
 import re
 import tomllib
 from pathlib import Path
@@ -117,14 +118,18 @@ class Scenario(_Section):
     duration_s: Annotated[float, Field(gt=0, le=600)] = 4.0
     character: tuple[CharacterSpec, ...] = (CharacterSpec(),)
     threat: tuple[ThreatSpec, ...] = ()
-    library: tuple[str, ...] | None = None  # clips that a search for a new motion looks through; None: all that are here
+    library: tuple[str, ...] | None = (
+        None  # clips that a search for a new motion looks through; None: all that are here
+    )
     settings: dict[str, Any] = {}
 
     @model_validator(mode="after")
     def _threats_have_a_character(self) -> Scenario:
         for i, threat in enumerate(self.threat):
             if threat.at_character >= len(self.character):
-                raise ValueError(f"threat.{i}.at_character is {threat.at_character}; there are {len(self.character)} characters")
+                raise ValueError(
+                    f"threat.{i}.at_character is {threat.at_character}; there are {len(self.character)} characters"
+                )
         return self
 
 
@@ -213,7 +218,7 @@ def _override(raw: dict[str, Any], text: str) -> None:
     except tomllib.TOMLDecodeError:
         value = value_text.strip()
     at: Any = raw
-    for key, following in zip(keys[:-1], keys[1:], strict=True):
+    for key, following in itertools.pairwise(keys):
         if isinstance(at, list):
             at = at[_row(at, key, text)]
         else:

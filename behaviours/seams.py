@@ -1,7 +1,8 @@
 """Seams: the ticks at which one source of poses takes over from another, and what is left of the old motion there.
 
-Before a character's phase, clip or blend is changed, what is shown a moment before the seam is asked of the old source; after the
-change `begin_seam` measures what that motion has beyond the new one. The arithmetic is in `behaviours.inertialise`.
+Before a character's phase, clip or blend is changed, what is shown a moment before the seam is asked of the old
+source; after the change `begin_seam` measures what that motion has beyond the new one. The arithmetic is in
+`behaviours.inertialise`.
 """
 
 from __future__ import annotations
@@ -44,8 +45,8 @@ class Moving(NamedTuple):
 def begin_seam(world, row: int, tick: int, body: Body, shown_before: Pose, source: Moving) -> None:
     """Keeps what the shown motion has beyond the new source.
 
-    `shown_before` is what was shown a MOMENT before the last tick. So the shown velocity is the old source's own, up to the
-    seam, and the new one's is its own from there on.
+    `shown_before` is what was shown a MOMENT before the last tick. So the shown velocity is the old source's own, up
+    to the seam, and the new one's is its own from there on.
     """
     now, _ = shown(world, row)
     ahead = Pose(np.empty_like(now.root_m), np.empty_like(now.rotations))

@@ -95,7 +95,9 @@ def normal_ttc_s(world, row: int, threat_row: int, velocity_mps) -> float:
 
 @system(Stage.SENSE, reads=(Flight, Threat, Posture, Character, Reaction), writes=(Threat,))
 def watch_free_threats(world, tick):
-    """A free ball that will hit or pass close is noticed, no sooner than eq. 4.1 has it; what it will do is known each tick."""
+    """A free ball that will hit or pass close is noticed, no sooner than eq. 4.1 has it; what it will do is known
+    each tick.
+    """
     t = world[Threat]
     for threat_row in world.rows(Threat, Flight):
         if t.spent[threat_row]:

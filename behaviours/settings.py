@@ -1,8 +1,8 @@
 """Every constant of the anticipation model, in one place: named, with its default, unit and section.
 
-The numbers are those of Hermens, *Anticipating Impacts* (2006); a section like 3.2.5 or a table is the thesis's, one like
-A4 is the project's specification, which settles what the thesis leaves open. A group is a NamedTuple of plain numbers, so
-that a kernel takes it whole. Radians inside; `override` also takes degrees, by the name with `_deg`:
+The numbers are those of Hermens, *Anticipating Impacts* (2006); a section like 3.2.5 or a table is the thesis's, one
+like A4 is the project's specification, which settles what the thesis leaves open. A group is a NamedTuple of plain
+numbers, so that a kernel takes it whole. Radians inside; `override` also takes degrees, by the name with `_deg`:
 
     settings = override(Settings(), {"block.reach_far_m": 0.8, "lean_turn.neck_deg": [50, 50, 65]})
 """
@@ -52,14 +52,20 @@ class LeanTurn(NamedTuple):
     back_share: Annotated[float, Constant("1", "3.2.3", "of the turn that the neck leaves over")] = 0.5
     waist_share: Annotated[float, Constant("1", "3.2.3", "of the turn that the neck leaves over")] = 0.3
     pelvis_share: Annotated[float, Constant("1", "3.2.3", "of the turn that the neck leaves over")] = 0.2
-    dead_ahead_rad: Annotated[float, Constant("rad", "A3.2", "azimuths below this keep the side last chosen")] = radians(2)
+    dead_ahead_rad: Annotated[float, Constant("rad", "A3.2", "azimuths below this keep the side last chosen")] = (
+        radians(2)
+    )
 
 
 class Recoil(NamedTuple):
     """Recoil and startle (3.2.4, 3.2.6): greatest rotations of the lower half of table 3.2, as magnitudes."""
 
-    clavicle_rad: Annotated[Triple, Constant("rad", "table 3.2", "raises (X) and brings forward (Y)")] = _xyz_deg(35, 25, 0)
-    shoulder_rad: Annotated[Triple, Constant("rad", "table 3.2", "lifts the upper arm sideways (X)")] = _xyz_deg(30, 0, 0)
+    clavicle_rad: Annotated[Triple, Constant("rad", "table 3.2", "raises (X) and brings forward (Y)")] = _xyz_deg(
+        35, 25, 0
+    )
+    shoulder_rad: Annotated[Triple, Constant("rad", "table 3.2", "lifts the upper arm sideways (X)")] = _xyz_deg(
+        30, 0, 0
+    )
     elbow_rad: Annotated[Triple, Constant("rad", "table 3.2", "flexes (Y)")] = _xyz_deg(0, 150, 0)
 
 
@@ -71,7 +77,9 @@ class Block(NamedTuple):
     arm_share: Annotated[float, Constant("1", "A3.4", "of the arm's length that the far reach may use")] = 0.97
     clearance_m: Annotated[float, Constant("m", "A3.4", "palm from the target, along the line, at least")] = 0.20
     offset_m: Annotated[float, Constant("m", "A3.4", "each palm to its own side of the line")] = 0.08
-    offset_fade: Annotated[float, Constant("1", "A3.4", "cosine, shoulders to across the line, below which the offset fades")] = 0.1
+    offset_fade: Annotated[
+        float, Constant("1", "A3.4", "cosine, shoulders to across the line, below which the offset fades")
+    ] = 0.1
     swivel_small_rad: Annotated[float, Constant("rad", "3.2.5", "elbow away from down, control 0")] = radians(70)
     swivel_large_rad: Annotated[float, Constant("rad", "3.2.5", "elbow away from down, control 1")] = radians(10)
     soften_m: Annotated[float, Constant("m", "A3.4", "width over which reach, clearance and plane meet")] = 0.02
@@ -85,7 +93,9 @@ class Wrap(NamedTuple):
     palm_gap_m: Annotated[float, Constant("m", "3.4", "skin of the hand off the back of the head")] = 0.0
     palm_apart_m: Annotated[float, Constant("m", "3.4", "each palm off the middle")] = 0.075
     palm_below_m: Annotated[float, Constant("m", "3.4", "palms below the head's centre")] = 0.02
-    fingers_inward_rad: Annotated[float, Constant("rad", "3.4", "fingers from upright towards each other")] = radians(20)
+    fingers_inward_rad: Annotated[float, Constant("rad", "3.4", "fingers from upright towards each other")] = radians(
+        20
+    )
     swivel_rad: Annotated[float, Constant("rad", "3.4", "elbow away from down, wrapped around the head")] = radians(110)
 
 
@@ -100,9 +110,13 @@ class Pelvis(NamedTuple):
 class Startle(NamedTuple):
     """Startle (3.2.6): the reflex before the considered defence."""
 
-    recoil_weight: Annotated[float, Constant("1", "3.2.6", "weight of the full recoil pose; the clip has the rest")] = 0.2
+    recoil_weight: Annotated[float, Constant("1", "3.2.6", "weight of the full recoil pose; the clip has the rest")] = (
+        0.2
+    )
     head_turn_share: Annotated[float, Constant("1", "3.2.6", "of the way the head turns towards the threat")] = 0.4
-    least_sustained_s: Annotated[float, Constant("s", "A3", "skipped when less would be left for the sustained blend")] = 0.15
+    least_sustained_s: Annotated[
+        float, Constant("s", "A3", "skipped when less would be left for the sustained blend")
+    ] = 0.15
 
 
 class Balance(NamedTuple):
@@ -110,15 +124,23 @@ class Balance(NamedTuple):
 
     brace_m: Annotated[float, Constant("m", "3.3", "COM wanted this far towards the threat")] = 0.10
     leg_share: Annotated[float, Constant("1", "A4", "of a leg's length that planting may use")] = 0.99
-    lower_for_foot_m: Annotated[float, Constant("m", "A4", "the pelvis goes at most this much down to put a foot on the ground")] = 0.06
+    lower_for_foot_m: Annotated[
+        float, Constant("m", "A4", "the pelvis goes at most this much down to put a foot on the ground")
+    ] = 0.06
     lift_over_m: Annotated[float, Constant("m", "A4", "a foot that moves farther is lifted on an arc")] = 0.03
     lift_height_m: Annotated[float, Constant("m", "A4", "height of that arc")] = 0.05
-    limit_margin_rad: Annotated[float, Constant("rad", "A", "hips, ankles and shoulders keep this far inside their limits")] = radians(0.5)
-    foot_tolerance_m: Annotated[float, Constant("m", "A4", "planted feet end where they were planted within this")] = 1e-4
+    limit_margin_rad: Annotated[
+        float, Constant("rad", "A", "hips, ankles and shoulders keep this far inside their limits")
+    ] = radians(0.5)
+    foot_tolerance_m: Annotated[float, Constant("m", "A4", "planted feet end where they were planted within this")] = (
+        1e-4
+    )
 
 
 class Objective(NamedTuple):
-    """The total error (3.3, eq. 3.3) as the solver sees it: `squares` (A4), the thesis's `literal` sum, or it `smoothed`."""
+    """The total error (3.3, eq. 3.3) as the solver sees it: `squares` (A4), the thesis's `literal` sum, or it
+    `smoothed`.
+    """
 
     form: Annotated[str, Constant("name", "A4", "squares | literal | smoothed")] = "squares"
     balance_weight: Annotated[float, Constant("1", "A4", "weight of the COM's distance")] = 5.0
@@ -139,22 +161,30 @@ class Solver(NamedTuple):
     offset: Annotated[float, Constant("m or 1", "3.3", "finite difference to either side")] = 0.01
     tolerance: Annotated[float, Constant("1", "A4", "relative decrease that ends the search")] = 1e-4
     iterations: Annotated[int, Constant("count", "A4", "at most")] = 60
-    restarts: Annotated[int, Constant("count", "A4", "BFGS begins again with fresh curvature, while that still gains")] = 0
-    polish: Annotated[bool, Constant("yes/no", "A4", "least squares goes on from where BFGS ends (squares form only)")] = True
+    restarts: Annotated[
+        int, Constant("count", "A4", "BFGS begins again with fresh curvature, while that still gains")
+    ] = 0
+    polish: Annotated[
+        bool, Constant("yes/no", "A4", "least squares goes on from where BFGS ends (squares form only)")
+    ] = True
     polish_tolerance: Annotated[float, Constant("1", "A4", "relative decrease that ends least squares")] = 1e-5
 
 
 class Timing(NamedTuple):
     """When things happen (4.2, fig. 4.1)."""
 
-    ttc_model: Annotated[str, Constant("name", "A6", "equation | text: which of the thesis's two accounts")] = "equation"
+    ttc_model: Annotated[str, Constant("name", "A6", "equation | text: which of the thesis's two accounts")] = (
+        "equation"
+    )
     ttc_least_s: Annotated[float, Constant("s", "eq. 4.1", "time to contact of the fastest threat")] = 0.25
     ttc_range_s: Annotated[float, Constant("s", "eq. 4.1", "added for the slowest")] = 0.75
     ttc_side_gain: Annotated[float, Constant("1", "eq. 4.1", "more time from the side")] = 0.2
     ttc_side_gain_text: Annotated[float, Constant("1", "4.2", "the same, where the text rules")] = 0.1
     angle_free: Annotated[bool, Constant("yes/no", "A6", "from the side: start earlier, move no slower")] = False
     startle_ahead_s: Annotated[float, Constant("s", "4.2", "look-ahead into the clip, startle")] = 1.0 / 12.0
-    sustained_ahead_s: Annotated[float, Constant("s", "4.2", "look-ahead into the clip, sustained pose and re-entry")] = 1.0 / 6.0
+    sustained_ahead_s: Annotated[
+        float, Constant("s", "4.2", "look-ahead into the clip, sustained pose and re-entry")
+    ] = 1.0 / 6.0
     startle_s: Annotated[float, Constant("s", "4.2", "the blend to the startle pose")] = 15.0 / 120.0
     slack_share: Annotated[float, Constant("1", "4.2", "how much longer than the TTC the blend takes")] = 0.05
 
@@ -162,23 +192,33 @@ class Timing(NamedTuple):
 class Temper(NamedTuple):
     """What boldness does to a threat as it is felt (S9)."""
 
-    size_share: Annotated[float, Constant("1", "S9", "a timid character takes it for this much larger, a bold one smaller")] = 0.5
+    size_share: Annotated[
+        float, Constant("1", "S9", "a timid character takes it for this much larger, a bold one smaller")
+    ] = 0.5
     speed_share: Annotated[float, Constant("1", "S9", "and for this much faster: it leans farther away")] = 0.35
 
 
 class Threats(NamedTuple):
     """How scripted threats are flown back from contact (3.1)."""
 
-    low_path: Annotated[str, Constant("name", "A1", "raise | shorten: the elevation or the time, where the path would be under ground")] = "raise"
+    low_path: Annotated[
+        str, Constant("name", "A1", "raise | shorten: the elevation or the time, where the path would be under ground")
+    ] = "raise"
 
 
 class Senses(NamedTuple):
     """How a free threat is noticed (A6)."""
 
     horizon_s: Annotated[float, Constant("s", "A6", "how far ahead a flight is predicted")] = 1.6
-    hit_within_m: Annotated[float, Constant("m", "A6", "skin of the ball to the middle of head, torso or pelvis: less is a hit")] = 0.28
-    flinch_within_m: Annotated[float, Constant("m", "A6", "farther than a hit but within this: it startles, and no more")] = 0.50
-    strayed_m: Annotated[float, Constant("m", "A6", "a ball that will pass this far off its line is not coming any more")] = 0.40
+    hit_within_m: Annotated[
+        float, Constant("m", "A6", "skin of the ball to the middle of head, torso or pelvis: less is a hit")
+    ] = 0.28
+    flinch_within_m: Annotated[
+        float, Constant("m", "A6", "farther than a hit but within this: it startles, and no more")
+    ] = 0.50
+    strayed_m: Annotated[
+        float, Constant("m", "A6", "a ball that will pass this far off its line is not coming any more")
+    ] = 0.40
     gone_m: Annotated[float, Constant("m", "A6", "a ball that goes away beyond this is no threat any more")] = 1.0
 
 
@@ -186,7 +226,9 @@ class Blend(NamedTuple):
     """Moving between two poses (4.3)."""
 
     knee_rule: Annotated[str, Constant("name", "A7", "ends | least_travel: how the knees' swivel is chosen")] = "ends"
-    overshoot_share: Annotated[float, Constant("1", "A6", "amplitude of the damped overshoot that fills a pause")] = 0.06
+    overshoot_share: Annotated[float, Constant("1", "A6", "amplitude of the damped overshoot that fills a pause")] = (
+        0.06
+    )
     overshoot_period_s: Annotated[float, Constant("s", "A6", "its period")] = 0.5
     overshoot_half_life_s: Annotated[float, Constant("s", "A6", "its half-life")] = 0.12
     seam_half_life_s: Annotated[float, Constant("s", "A7", "half-life of what a seam leaves over")] = 0.07
@@ -200,7 +242,9 @@ class Response(NamedTuple):
     friction: Annotated[float, Constant("1", "A8", "ball against body")] = 0.5
     contact_s: Annotated[float, Constant("s", "A8", "how long the ball presses, half a sine; 0 is an instant")] = 0.010
     least_Ns: Annotated[float, Constant("N s", "A8", "a weaker touch turns the ball away and moves nobody")] = 0.4
-    least_mps: Annotated[float, Constant("m/s", "A8", "so does a slower one, or a ball that lies on somebody holds them down")] = 1.0
+    least_mps: Annotated[
+        float, Constant("m/s", "A8", "so does a slower one, or a ball that lies on somebody holds them down")
+    ] = 1.0
     down_share: Annotated[float, Constant("1", "A8", "of that strength that is left once knocked down")] = 0.15
     stiffness: Annotated[float, Constant("1", "A8", "strength of the tracking servos, 1 is usual")] = 1.0
     damping: Annotated[float, Constant("1", "A8", "their damping, 1 is critical")] = 1.0
@@ -213,14 +257,20 @@ class Recovery(NamedTuple):
     part_two_s: Annotated[float, Constant("s", "4.2", "the rest of the way to the return pose")] = 0.375
     part_one_share: Annotated[float, Constant("1", "4.1.3", "of the return blend that is over after part one")] = 0.25
     hold_s: Annotated[float, Constant("s", "4.2", "the sustained pose is held when nothing was touched")] = 1.0 / 3.0
-    capture_beyond_m: Annotated[float, Constant("m", "A8", "capture point this far outside the feet: knocked down")] = 0.45
-    fallen_hip_share: Annotated[float, Constant("1", "A8", "hips below this share of the leg's length: knocked down")] = 0.55
+    capture_beyond_m: Annotated[float, Constant("m", "A8", "capture point this far outside the feet: knocked down")] = (
+        0.45
+    )
+    fallen_hip_share: Annotated[
+        float, Constant("1", "A8", "hips below this share of the leg's length: knocked down")
+    ] = 0.55
 
 
 class Search(NamedTuple):
     """Which motion a struck character goes on with (4.1.3; Zordan et al. 2005), where a new one may be searched for."""
 
-    auto_over_m: Annotated[float, Constant("m", "A9", "auto: a new motion if the blow moved the body more than this")] = 0.06
+    auto_over_m: Annotated[
+        float, Constant("m", "A9", "auto: a new motion if the blow moved the body more than this")
+    ] = 0.06
     own_clip: Annotated[bool, Constant("yes/no", "A9", "whether the clip that was played counts as new")] = False
     velocity_s: Annotated[float, Constant("s", "A9", "a velocity counts as the distance it goes in this time")] = 0.1
     candidates: Annotated[int, Constant("count", "A9", "windows of the prefilter that are compared exactly")] = 192

@@ -1,4 +1,6 @@
-"""What is shown: the source of the present phase, what is left of the last seam on top, the feet where they have to be."""
+"""What is shown: the source of the present phase, what is left of the last seam on top, the feet where they have to
+be.
+"""
 
 from __future__ import annotations
 
@@ -8,7 +10,19 @@ from numba import njit
 from behaviours import feet as foot_plan
 from behaviours import seams
 from behaviours.blending import LEG_SOFT_M, drop_beyond_own, legs_to
-from behaviours.components import Blend, Blow, Character, Feet, Phase, Playback, Posture, Ragdoll, Reaction, Residual, Sustained
+from behaviours.components import (
+    Blend,
+    Blow,
+    Character,
+    Feet,
+    Phase,
+    Playback,
+    Posture,
+    Ragdoll,
+    Reaction,
+    Residual,
+    Sustained,
+)
 from behaviours.inertialise import add_remaining, nothing_left, remaining, remaining2, turned_by
 from behaviours.playing import body_of, clip_time_s, planted_in_clip
 from behaviours.sources import foot_goals, source_pose
@@ -36,7 +50,9 @@ def goals_with_residual(ankle_m, turned, ankles, ankle_turns, elapsed_s, half_li
 
 @njit(cache=True)
 def keep_knees(body, source, rotations):
-    """Keeps a residual (in a pose (J, 4)) from bending a knee backwards, farther than the source itself does. In place."""
+    """Keeps a residual (in a pose (J, 4)) from bending a knee backwards, farther than the source itself does. In
+    place.
+    """
     for j in KNEES:
         low, high = body.limit_low_rad[j] - KNEE_PLAY_RAD, body.limit_high_rad[j] + KNEE_PLAY_RAD
         q = clamp_keeping(low, high, source[j], rotations[j])
@@ -48,8 +64,9 @@ def keep_knees(body, source, rotations):
 def stand_on(body, root_m, rotations, ankle_m, turned, bears, own_lengths):
     """Leg IK of both legs onto ankle goals (2, 3), (2, 4), in place. The knees stay where the least swing leaves them.
 
-    The pelvis sinks by what the residual has put out of reach, beyond `own_lengths` (2,): the legs' in the source, and what is
-    left of the last seam's. So a residual that is nothing changes nothing, and one that has just begun neither.
+    The pelvis sinks by what the residual has put out of reach, beyond `own_lengths` (2,): the legs' in the source,
+    and what is left of the last seam's. So a residual that is nothing changes nothing, and one that has just begun
+    neither.
     """
     positions = np.empty((JOINT_COUNT, 3))
     orientations = np.empty((JOINT_COUNT, 4))
@@ -63,7 +80,17 @@ def stand_on(body, root_m, rotations, ankle_m, turned, bears, own_lengths):
         positions[j, 2] -= drop
     for side in range(2):
         swivel = leg_swivel(positions, orientations, side)
-        apply_leg(body, rotations, positions, orientations, side, ankle_m[side], turned[side], swivel, LEG_SOFT_M * (1.0 - bears[side]))
+        apply_leg(
+            body,
+            rotations,
+            positions,
+            orientations,
+            side,
+            ankle_m[side],
+            turned[side],
+            swivel,
+            LEG_SOFT_M * (1.0 - bears[side]),
+        )
 
 
 @system(

@@ -1,4 +1,6 @@
-"""A scenario, running: the world it is played in, the systems of a tick in their order, and the commands that come from outside."""
+"""A scenario, running: the world it is played in, the systems of a tick in their order, and the commands that come
+from outside.
+"""
 
 from __future__ import annotations
 
@@ -69,6 +71,7 @@ SYSTEMS = (
     meet_balls,
 )
 
+
 @dataclass(frozen=True)
 class Assets:
     """What never changes in a run: shared by all ticks, no part of the state."""
@@ -128,7 +131,10 @@ def _spawn_character(world: World, row: int, spec: CharacterSpec) -> None:
     """One character standing in its clip at the start time."""
     clip = world.assets.clips[row]
     if spec.start_s > clip.duration_s and not clip.loops:
-        raise BadInput("scenario", f"character.{row}.start_s is {spec.start_s}; the clip {clip.name!r} lasts {clip.duration_s:.2f} s")
+        raise BadInput(
+            "scenario",
+            f"character.{row}.start_s is {spec.start_s}; the clip {clip.name!r} lasts {clip.duration_s:.2f} s",
+        )
     heading = math.radians(spec.heading_deg)
     # the character, not the clip's first frame, stands at the place asked for
     start = placed(sample(clip, spec.start_s), (0.0, 0.0), heading)
@@ -162,7 +168,9 @@ def _spawn_character(world: World, row: int, spec: CharacterSpec) -> None:
 
 
 def apply_command(world: World, command: Command) -> None:
-    """What comes in from outside, as data: {"do": "throw", position_m, velocity_mps, kind, size, at, ...}. BadInput otherwise."""
+    """What comes in from outside, as data: {"do": "throw", position_m, velocity_mps, kind, size, at, ...}. BadInput
+    otherwise.
+    """
     if command.get("do") != "throw":
         raise BadInput("command", f"unknown command {command.get('do')!r}; expected 'throw'")
     velocity = tuple(command["velocity_mps"])
@@ -170,7 +178,9 @@ def apply_command(world: World, command: Command) -> None:
     given = {key: command[key] for key in ("radius_m", "mass_kg", "size_means", "drag") if key in command}
     make = make_threat(kind, math.dist(velocity, (0.0, 0.0, 0.0)), command.get("size", 0.5), **given)
     at = world.assets.character_rows[command.get("at", 0)]
-    throw(world, at, kind, make, tuple(command["position_m"]), velocity, tuple(command.get("spin_radps", (0.0, 0.0, 0.0))))
+    throw(
+        world, at, kind, make, tuple(command["position_m"]), velocity, tuple(command.get("spin_radps", (0.0, 0.0, 0.0)))
+    )
 
 
 class Simulation:

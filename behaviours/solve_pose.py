@@ -10,7 +10,7 @@ from numba import njit
 from behaviours import minimise
 from behaviours.least_squares import bounded_step, normal_equations
 from behaviours.rules.controls import CONTROL_COUNT
-from behaviours.total_error import RESIDUALS, TERMS, VARIABLES, BEGIN, residuals_into, total_error
+from behaviours.total_error import BEGIN, RESIDUALS, TERMS, VARIABLES, residuals_into, total_error
 
 REFINE = 0.1  # each restart looks closer: the thesis's offset is as wide as the leg's soft end
 LEAST_SQUARES_OFFSET = 1e-4  # its derivatives are of residuals, not of their squares: a fine difference is safe

@@ -1,6 +1,8 @@
-"""Where a character's pose comes from in each phase, before continuity and footing (`behaviours.settle`) have their say.
+"""Where a character's pose comes from in each phase, before continuity and footing (`behaviours.settle`) have their
+say.
 
-One function a source; `source_pose` picks by phase. All are pure in the tick, so a seam can ask a new source where it was.
+One function a source; `source_pose` picks by phase. All are pure in the tick, so a seam can ask a new source where it
+was.
 """
 
 from __future__ import annotations
@@ -89,7 +91,7 @@ def _between(world, row, tick, start, end, weight, arcs) -> tuple[Pose, tuple[fl
 
 
 def choose_hand_ways(world, row: int, start: Pose, end: Pose) -> None:
-    """Decides, once for a blend, how each hand goes from one end to the other; see `behaviours.blending.choose_arcs`."""
+    """Decides, once for a blend, how each hand goes from end to end; see `behaviours.blending.choose_arcs`."""
     body, shape, b = body_of(world, row), capsules_of(world, row), world[Blend]
     b.arcs[row] = STRAIGHT
     if b.support[row] == NOBODY:

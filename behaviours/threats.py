@@ -28,9 +28,7 @@ class Kind(NamedTuple):
 # Volleyball: FIVB official size and weight; spike speeds 22.8 - 29.7 m/s (Forthomme et al. 2005, in the thesis);
 # C_d 0.2 past the drag crisis (Asai et al. 2010).
 KINDS = {
-    "volleyball": Kind(
-        0.105, 0.27, (0.06, 0.20), (0.1, 2.0), (22.8, 29.7), drag_per_m(0.105, 0.27, 0.2), 0.75, 0.6
-    ),
+    "volleyball": Kind(0.105, 0.27, (0.06, 0.20), (0.1, 2.0), (22.8, 29.7), drag_per_m(0.105, 0.27, 0.2), 0.75, 0.6),
     "custom": Kind(0.105, 0.27, (0.05, 0.30), (0.05, 10.0), (22.8, 29.7), drag_per_m(0.105, 0.27, 0.45), 0.5, 0.6),
 }
 
@@ -61,7 +59,9 @@ def make_threat(
     speed_range_mps: tuple[float, float] | None = None,
     drag: bool = False,
 ) -> Make:
-    """The threat that a speed and an abstract size stand for. A radius or mass that is given wins over what size means."""
+    """The threat that a speed and an abstract size stand for. A radius or mass that is given wins over what size
+    means.
+    """
     of = KINDS[kind]
     radius, mass = of.radius_m, of.mass_kg
     if size_means in ("radius", "both"):

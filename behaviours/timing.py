@@ -38,7 +38,8 @@ def ease(progress):
 
 @njit(cache=True)
 def overshoot(after_s, share, period_s, half_life_s):
-    """How far beyond its end a movement still goes, as a share of its way: a swing about the end that begins gently and dies.
+    """How far beyond its end a movement still goes, as a share of its way: a swing about the end that begins gently
+    and dies.
 
     What fills a pause instead of a freeze (thesis 4.2, left to future work there). No velocity at first; `share` is the
     greatest swing there could be, were it not dying away.

@@ -1,9 +1,10 @@
 """A stance under everything a character does: where the two sources meet (specification S9).
 
-A character's stance (shape set and intensity: personality and mood) is worn under its clip: the stance's turns lie under the
-clip's own at spine, neck, head, collars and pelvis, the pelvis sinks and shifts as the stance asks, and both feet stay exactly
-where the clip has them, by leg IK. All that follows - startle, rules, bracing, recovery - starts from that pose. How bold the
-character is colours what it makes of a threat: to the timid the same ball is larger and faster.
+A character's stance (shape set and intensity: personality and mood) is worn under its clip: the stance's turns lie
+under the clip's own at spine, neck, head, collars and pelvis, the pelvis sinks and shifts as the stance asks, and
+both feet stay exactly where the clip has them, by leg IK. All that follows - startle, rules, bracing, recovery -
+starts from that pose. How bold the character is colours what it makes of a threat: to the timid the same ball is
+larger and faster.
 """
 
 from __future__ import annotations
@@ -80,9 +81,7 @@ def wear(body, root_m, rotations, worn):
     for j in range(JOINT_COUNT):
         positions[j, 2] -= drop
     for side in range(2):
-        apply_leg(
-            body, rotations, positions, orientations, side, ankles_m[side], feet[side], swivels[side], 0.0
-        )
+        apply_leg(body, rotations, positions, orientations, side, ankles_m[side], feet[side], swivels[side], 0.0)
 
 
 @njit(cache=True)
@@ -94,5 +93,7 @@ def _least_drop(body, hip_m, ankle_m, side):
 
 
 def as_felt(norm: float, boldness: float, share: float) -> float:
-    """A threat's size or speed, 0 to 1, as a character of this boldness (-1 timid ... +1 bold) takes it: clamped to [0, 1]."""
+    """A threat's size or speed, 0 to 1, as a character of this boldness (-1 timid ... +1 bold) takes it: clamped to
+    [0, 1].
+    """
     return min(1.0, max(0.0, norm - share * boldness))

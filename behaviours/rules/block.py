@@ -1,7 +1,9 @@
-"""Block (Hermens 2006, 3.2.5, figs. 3.6 - 3.8): the palms meet the threat on its line of approach, before it meets the body.
+"""Block (Hermens 2006, 3.2.5, figs. 3.6 - 3.8): the palms meet the threat on its line of approach, before it meets
+the body.
 
 A small threat is reached for, to knock it away; before a large one the arms stay close and the pose is small.
-All points and directions are the world's; the line of approach is a point on it and the unit tangent of the threat's travel.
+All points and directions are the world's; the line of approach is a point on it and the unit tangent of the threat's
+travel.
 """
 
 from __future__ import annotations
@@ -29,14 +31,17 @@ def smooth_max(a, b, width):
 
 @njit(cache=True)
 def reach_m(control, far_m, near_m, arm_m, arm_share):
-    """How far a palm goes from its own shoulder: the far reach, but no more than the arm has, at control 0; near at 1."""
+    """How far a palm goes from its own shoulder: the far reach, but no more than the arm has, at control 0; near at
+    1.
+    """
     far = min(far_m, arm_share * arm_m)
     return far + (min(near_m, far) - far) * control
 
 
 @njit(cache=True)
 def distance_on_line(shoulder, line_point, tangent, reach):
-    """How far before `line_point`, against the travel, the palm stands: the point at its reach, nearer the threat, metres.
+    """How far before `line_point`, against the travel, the palm stands: the point at its reach, nearer the threat,
+    metres.
 
     Where the line passes farther from the shoulder than the reach, its nearest point; the two cases meet smoothly.
     """
@@ -52,9 +57,9 @@ def distance_on_line(shoulder, line_point, tangent, reach):
 def palm_target(side, shoulder, reach, target, line_point, tangent, across, torso_x, clearance_m, offset_m, soften_m):
     """Where one palm centre goes, in the world.
 
-    target: centre of what is threatened, as it stands now; the palm keeps its clearance from it along the line, whatever the
-    reach. across: unit horizontal across the line, to the left shoulder's side; each palm keeps to its own side by the offset.
-    torso_x: where the chest faces; no hand goes behind the plane through its shoulder.
+    target: centre of what is threatened, as it stands now; the palm keeps its clearance from it along the line,
+    whatever the reach. across: unit horizontal across the line, to the left shoulder's side; each palm keeps to its
+    own side by the offset. torso_x: where the chest faces; no hand goes behind the plane through its shoulder.
     """
     least = vector.inner(vector.subtract(line_point, target), tangent) + clearance_m
     before = smooth_max(distance_on_line(shoulder, line_point, tangent, reach), least, soften_m)
@@ -77,5 +82,7 @@ def hand_facing(side, normal, fingers):
 
 @njit(cache=True)
 def swivel_rad(control, small_rad, large_rad):
-    """The elbow's angle away from down about shoulder - wrist: out for a small threat, close to the body for a large one."""
+    """The elbow's angle away from down about shoulder - wrist: out for a small threat, close to the body for a large
+    one.
+    """
     return small_rad + (large_rad - small_rad) * control

@@ -1,4 +1,6 @@
-"""Rule control parameters (Hermens 2006, 3.2.1, table 3.1): how strongly each rule acts, from what the threat is like."""
+"""Rule control parameters (Hermens 2006, 3.2.1, table 3.1): how strongly each rule acts, from what the threat is
+like.
+"""
 
 from __future__ import annotations
 

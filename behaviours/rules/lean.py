@@ -1,4 +1,6 @@
-"""Lean away (Hermens 2006, 3.2.2, fig. 3.3): the body leans the way the threat travels, which lengthens its way to the target."""
+"""Lean away (Hermens 2006, 3.2.2, fig. 3.3): the body leans the way the threat travels, which lengthens its way to
+the target.
+"""
 
 from __future__ import annotations
 
@@ -14,8 +16,8 @@ SPINE = (PELVIS, WAIST, BACK, NECK)
 def lean_angles(direction, greatest, lean):
     """Angles about the heading's X and Y, radians, of one joint.
 
-    direction: unit travel of the threat in the heading's frame (X ahead, Y left); greatest: the joint's row of table 3.2.
-    From the front it leans back (Y negative), from the left it leans right (X positive).
+    direction: unit travel of the threat in the heading's frame (X ahead, Y left); greatest: the joint's row of table
+    3.2. From the front it leans back (Y negative), from the left it leans right (X positive).
     """
     return (-direction[1] * greatest[0] * lean, direction[0] * greatest[1] * lean)
 

@@ -1,4 +1,6 @@
-"""Startle (Hermens 2006, 3.2.6): the reflex before the considered defence. A fifth of a full recoil, both sides alike."""
+"""Startle (Hermens 2006, 3.2.6): the reflex before the considered defence. A fifth of a full recoil, both sides
+alike.
+"""
 
 from __future__ import annotations
 
@@ -34,7 +36,8 @@ def turn_towards(head_orientation, toward, share):
 
 
 def startle_pose(body: Body, pose_ahead: Pose, toward, settings: Settings) -> Pose:
-    """The startle pose: the clip 1/12 s ahead, mixed with its own full recoil, the head turned some of the way to the threat.
+    """The startle pose: the clip 1/12 s ahead, mixed with its own full recoil, the head turned some of the way to the
+    threat.
 
     toward (3,): unit vector to the threat, world. The turn is shared by neck and head, within their limits. No balance.
     """

@@ -16,8 +16,9 @@ TURN_LEFT, TURN_RIGHT = 1.0, -1.0
 def turn_side(direction, dead_ahead_rad, previous_side):
     """Which way to turn, +1 left or -1 right: away from the side the threat comes from.
 
-    direction: unit travel of the threat in the heading's frame. Within a narrow band dead ahead or dead behind the side last
-    chosen is kept (0: none yet, then right), so that a threat that wavers there does not make the character flicker.
+    direction: unit travel of the threat in the heading's frame. Within a narrow band dead ahead or dead behind the
+    side last chosen is kept (0: none yet, then right), so that a threat that wavers there does not make the character
+    flicker.
     """
     if abs(direction[1]) <= math.sin(dead_ahead_rad) * math.sqrt(direction[0] ** 2 + direction[1] ** 2):
         return TURN_LEFT if previous_side > 0.0 else TURN_RIGHT
@@ -28,8 +29,8 @@ def turn_side(direction, dead_ahead_rad, previous_side):
 def wanted_turn(head_yaw_rad, direction, side):
     """The yaw, radians, positive left, that would bring the back of the head to the threat, going round by `side`.
 
-    head_yaw_rad: where the face points, in the heading's frame, like `direction`. A head that is already past the goal gets
-    a small turn back: the result lies between a quarter turn against `side` and three quarters with it.
+    head_yaw_rad: where the face points, in the heading's frame, like `direction`. A head that is already past the
+    goal gets a small turn back: the result lies between a quarter turn against `side` and three quarters with it.
     """
     if direction[0] * direction[0] + direction[1] * direction[1] < 1e-12:
         return 0.0

@@ -1,7 +1,7 @@
 """`brace bench --motion`: how good the motion is, over seeded threats at real clips. Every figure has a bar to meet.
 
-A case is a whole run: a clip, a moment of it, a threat from anywhere. It is measured by `behaviours.measures`; threats to the
-head are thrown once more at somebody who sees nothing coming, and some cases once more in a mirror.
+A case is a whole run: a clip, a moment of it, a threat from anywhere. It is measured by `behaviours.measures`;
+threats to the head are thrown once more at somebody who sees nothing coming, and some cases once more in a mirror.
 """
 
 from __future__ import annotations
@@ -23,7 +23,8 @@ from engine.core.errors import EnvironmentTrouble
 LIBRARY_CLIPS = ("walk", "stand", "dance", "hop", "run")
 BESIDE = Path(__file__).resolve().parents[2].parent / "shared" / "mocap" / "asfamc"
 CLIPS_BESIDE = {
-    "fight": "14_02.amc", "run to a stop": "16_08.amc", "kick": "135_04.amc", "punch": "02_05.amc", "walk 2": "07_04.amc",
+    "fight": "14_02.amc", "run to a stop": "16_08.amc", "kick": "135_04.amc", "punch": "02_05.amc", "walk 2":
+    "07_04.amc",
 }  # fmt: skip
 PERCEIVED_S = 0.15
 AFTER_CONTACT_S = 1.1  # response and recovery, and a little of the clip again

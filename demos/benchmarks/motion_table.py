@@ -33,7 +33,9 @@ def figures_of(rows: list[Row]) -> list[Figure]:
         _greatest(rows, "COM off its line, mm", "<= 5", 5.0, _times("com_line_deviation_max_m", 1e3)),
         _greatest(rows, "jump of place at a seam, mm", "<= 0.5", 0.5, _times("seam_position_jump_max_m", 1e3)),
         _greatest(rows, "jump of velocity at a seam, m/s", "<= 0.05", 0.05, _times("seam_velocity_jump_max_mps", 1.0)),
-        _greatest(rows, "beyond joint limits, degrees", "<= 0.5", 0.5, _times("joint_limit_excess_max_rad", 180 / np.pi)),
+        _greatest(
+            rows, "beyond joint limits, degrees", "<= 0.5", 0.5, _times("joint_limit_excess_max_rad", 180 / np.pi)
+        ),
         _greatest(rows, "arms inside head, trunk or each other, mm", "<= 5", 5.0, _times("overlap_max_m", 1e3)),
         _share(rows, "head threats from ahead met by hand or forearm, %", 95.0, _met_by_arm),
         _share(rows, "head is hit less hard than unprotected, %", 90.0, _spared),
@@ -81,13 +83,22 @@ def _greatest(rows, name, bar, limit, of) -> Figure:
     if not kept:
         return Figure(name, float("nan"), bar, False, None, 0)
     at = int(values.argmax())
-    return Figure(name, float(values[at]), bar, bool(values[at] <= limit), kept[at], len(kept), int((values > limit).sum()))
+    return Figure(
+        name, float(values[at]), bar, bool(values[at] <= limit), kept[at], len(kept), int((values > limit).sum())
+    )
 
 
 def _share(rows, name, least, of) -> Figure:
     kept, values = _values(rows, of)
     share = 100.0 * float(values.mean()) if kept else float("nan")
-    return Figure(name, share, f">= {least:g}", share >= least, next((r for r, v in zip(kept, values, strict=True) if not v), None), len(kept))
+    return Figure(
+        name,
+        share,
+        f">= {least:g}",
+        share >= least,
+        next((r for r, v in zip(kept, values, strict=True) if not v), None),
+        len(kept),
+    )
 
 
 def _median(rows, name, bar, least, of) -> Figure:
@@ -110,5 +121,8 @@ def lines_of(rows: list[Row]) -> list[str]:
     for figure in figures_of(rows):
         worst = str(figure.worst["case"]) if figure.worst else ""
         met = "yes" if figure.met else "NO"
-        lines.append(f"{figure.name:<52} {figure.value:>9.3g}  {figure.bar:<8} {met:<4} {figure.cases:>5} {figure.failing:>5}  {worst}")
+        lines.append(
+            f"{figure.name:<52} {figure.value:>9.3g}  {figure.bar:<8} {met:<4} {figure.cases:>5}"
+            f" {figure.failing:>5}  {worst}"
+        )
     return lines

@@ -11,7 +11,9 @@ from engine.maths import quaternion, vector
 
 @njit(cache=True)
 def joints_into(offset_m, root_m, rotations, positions, orientations):
-    """Writes where every joint is and how it is turned in the world: (J, 3) and (J, 4). Parents come first in the table."""
+    """Writes where every joint is and how it is turned in the world: (J, 3) and (J, 4). Parents come first in the
+    table.
+    """
     for j in range(JOINT_COUNT):
         parent, local = PARENT[j], quaternion.at(rotations, j)
         if parent < 0:
@@ -72,5 +74,7 @@ def com_of(body, pose: Pose) -> np.ndarray:
     """World centre of mass (..., 3), metres, of one pose or of any number of them."""
     positions, orientations = joints_of(body, pose)
     out = np.empty((*positions.shape[:-2], 3))
-    _com_of_frames(body, positions.reshape(-1, JOINT_COUNT, 3), orientations.reshape(-1, JOINT_COUNT, 4), out.reshape(-1, 3))
+    _com_of_frames(
+        body, positions.reshape(-1, JOINT_COUNT, 3), orientations.reshape(-1, JOINT_COUNT, 4), out.reshape(-1, 3)
+    )
     return out

@@ -123,7 +123,11 @@ def arm_swivel(positions, orientations, side, reference=DOWN):
 @njit(cache=True)
 def leg_swivel(positions, orientations, side):
     """The swivel of a leg as it is now, radians, positive away from the other leg."""
-    root, mid, end = vector.at(positions, HIPS[side]), vector.at(positions, KNEES[side]), vector.at(positions, ANKLES[side])
+    root, mid, end = (
+        vector.at(positions, HIPS[side]),
+        vector.at(positions, KNEES[side]),
+        vector.at(positions, ANKLES[side]),
+    )
     n = vector.unit(vector.subtract(end, root), (0.0, 0.0, -1.0))
     return swivel_of(root, mid, end, knee_axis(orientations, side), knee_zero(orientations, n), side_sign(side))
 
@@ -145,9 +149,7 @@ def apply_arm(
 
 
 @njit(cache=True)
-def arm_onto(
-    offset_m, greatest_rad, rotations, positions, orientations, side, target, swivel_rad, reference, soft_m
-):
+def arm_onto(offset_m, greatest_rad, rotations, positions, orientations, side, target, swivel_rad, reference, soft_m):
     """apply_arm for hot kernels that cannot hand a whole body on; greatest_rad is the most the elbow flexes."""
     shoulder, elbow, wrist = SHOULDERS[side], ELBOWS[side], WRISTS[side]
     root = vector.at(positions, shoulder)

@@ -2,9 +2,9 @@
 freedom, the mass model and the MuJoCo body. Every clip is mapped on it with its subject's own bone lengths.
 
 Identity pose: standing upright, facing +X, left hand on the +Y side, legs straight, arms hanging, palms towards the
-thighs, feet forward; every joint frame is then parallel to the world. Bones of limbs and fingers run along -Z of their joint, the
-spine along +Z, the toe along +X. So, at any joint: elbows flex by *negative* Y, knees by positive Y, the trunk bows
-forward by positive Y, the left arm lifts sideways by positive X, the right one by negative X.
+thighs, feet forward; every joint frame is then parallel to the world. Bones of limbs and fingers run along -Z of
+their joint, the spine along +Z, the toe along +X. So, at any joint: elbows flex by *negative* Y, knees by positive Y,
+the trunk bows forward by positive Y, the left arm lifts sideways by positive X, the right one by negative X.
 """
 
 from __future__ import annotations

@@ -1,8 +1,8 @@
 """Unit quaternions for kernels: one rotation in, one rotation out.
 
-Conventions (Brace, everywhere): components w x y z, unit length, active, local to parent. `multiply(a, b)` applies b first.
-Every function takes anything indexable (array row or tuple) and returns a tuple, so that inside a kernel nothing is
-allocated; from plain Python they are just as usable. Whole arrays of rotations: `engine.maths.rotations`.
+Conventions (Brace, everywhere): components w x y z, unit length, active, local to parent. `multiply(a, b)` applies b
+first. Every function takes anything indexable (array row or tuple) and returns a tuple, so that inside a kernel
+nothing is allocated; from plain Python they are just as usable. Whole arrays of rotations: `engine.maths.rotations`.
 """
 
 from __future__ import annotations
@@ -16,7 +16,7 @@ IDENTITY = (1.0, 0.0, 0.0, 0.0)
 
 @njit(cache=True)
 def at(rows, row):
-    """One row of an array (N, 4) as a tuple. In a kernel `rows[row]` would be a view: counted, and a type of its own."""
+    """One row of an array (N, 4) as a tuple. In a kernel `rows[row]` would be a view: counted, a type of its own."""
     return (rows[row, 0], rows[row, 1], rows[row, 2], rows[row, 3])
 
 

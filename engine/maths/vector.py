@@ -9,7 +9,7 @@ from numba import njit
 
 @njit(cache=True)
 def at(rows, row):
-    """One row of an array (N, 3) as a tuple. In a kernel `rows[row]` would be a view: counted, and a type of its own."""
+    """One row of an array (N, 3) as a tuple. In a kernel `rows[row]` would be a view: counted, a type of its own."""
     return (rows[row, 0], rows[row, 1], rows[row, 2])
 
 

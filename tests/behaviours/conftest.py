@@ -5,7 +5,6 @@ from __future__ import annotations
 import pytest
 
 from behaviours.components import Flight
-
 from tests.behaviours.runs import AHEAD, run, simulation_of
 
 

@@ -16,7 +16,9 @@ from engine.clips.library import find_clip
 AHEAD = {"target": "head", "perceived_s": 0.2, "azimuth_deg": 30.0, "elevation_deg": 10.0, "speed_mps": 26.0}
 
 
-def simulation_of(threats=(), clip="sway", find=None, duration_s=2.5, checked=False, observe=True, settings=None, **character: Any):
+def simulation_of(
+    threats=(), clip="sway", find=None, duration_s=2.5, checked=False, observe=True, settings=None, **character: Any
+):
     """A simulation of one character, not yet stepped. `clip` is a library name, or a Clip."""
     name = clip if isinstance(clip, str) else clip.name
     scenario = check_scenario({

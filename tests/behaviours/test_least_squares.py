@@ -34,7 +34,8 @@ def test_repeated_bounded_steps_reach_scipys_bounded_optimum(seed):
     start, x = point.copy(), point.copy()
     for _ in range(60):
         x = x + step_for(jacobian, residuals + jacobian @ (x - start), x, low, high, 0.0)
-        assert np.all(x >= -1e-12) and np.all(x <= 1 + 1e-12)
+        assert np.all(x >= -1e-12)
+        assert np.all(x <= 1 + 1e-12)
     best = lsq_linear(jacobian, jacobian @ start - residuals, bounds=(low, high), tol=1e-12)
     cost = 0.5 * np.sum((residuals + jacobian @ (x - start)) ** 2)
     assert cost <= best.cost * (1 + 1e-6) + 1e-12

@@ -1,4 +1,6 @@
-"""A simulation as a machine: the same bits again, from any snapshot, under any grouping; every system true to its word."""
+"""A simulation as a machine: the same bits again, from any snapshot, under any grouping; every system true to its
+word.
+"""
 
 from __future__ import annotations
 
@@ -16,7 +18,16 @@ from engine.core.errors import BadInput
 from engine.core.journal_file import load_journal, save_journal
 from engine.core.recorder import Recorder, new_journal, replay
 from engine.core.timeline import Timeline
-from tests.behaviours.runs import AHEAD, events, joints_until_contact, mirrored_back, phases, run, simulation_of, track_of
+from tests.behaviours.runs import (
+    AHEAD,
+    events,
+    joints_until_contact,
+    mirrored_back,
+    phases,
+    run,
+    simulation_of,
+    track_of,
+)
 
 FREE = {"free": True, "position_m": [8.0, -1.0, 1.6], "speed_mps": 16.0, "target": "head", "released_s": 0.1}
 
@@ -43,7 +54,9 @@ def busy():
 
 
 def test_every_system_reads_and_writes_what_it_declares():
-    simulation = run([AHEAD, FREE, AHEAD | {"perceived_s": 1.4, "azimuth_deg": -100.0}], duration_s=3.0, checked=True, observe=False)
+    simulation = run(
+        [AHEAD, FREE, AHEAD | {"perceived_s": 1.4, "azimuth_deg": -100.0}], duration_s=3.0, checked=True, observe=False
+    )
     assert len([e for e in simulation.world.events if e.kind == "contact"]) >= 2
 
 
@@ -59,7 +72,7 @@ def test_the_same_run_twice_also_under_another_thread_count(busy):
 
 
 def test_from_any_snapshot_it_goes_on_the_same(busy):
-    simulation, taken, found = busy
+    _simulation, taken, found = busy
     assert any(s for s in taken), "no snapshot"
     other = simulation_of([AHEAD, FREE], observe=False)
     for tick, snapshot in taken.items():
@@ -68,7 +81,7 @@ def test_from_any_snapshot_it_goes_on_the_same(busy):
 
 
 def test_observing_changes_nothing(busy):
-    simulation, _, found = busy
+    _simulation, _, found = busy
     assert digests(simulation_of([AHEAD, FREE], observe=True), 200) == found[:200]
 
 
@@ -98,7 +111,8 @@ def test_rewinding_into_the_blow_and_on_again(busy):
     contact = next(event.tick for event in simulation.world.events if event.kind == "contact")
     for tick in (contact + 1, 31, contact + 2, 160):
         timeline.seek(tick)
-        assert simulation.world.tick == tick and simulation.world.digest() == found[tick - 1]
+        assert simulation.world.tick == tick
+        assert simulation.world.digest() == found[tick - 1]
 
 
 def test_unknown_commands_are_refused():
@@ -115,7 +129,8 @@ def test_a_mirrored_threat_at_a_mirrored_clip_gives_the_mirrored_run(name, azimu
     left = run([threat], clip=clip, duration_s=1.6)
     right = run([threat | {"azimuth_deg": -azimuth}], clip=mirror_clip(clip), duration_s=1.6)
     ours, theirs = joints_until_contact(track_of(left)), joints_until_contact(track_of(right))
-    assert phases(left) == phases(right) and "respond" in phases(left)
+    assert phases(left) == phases(right)
+    assert "respond" in phases(left)
     np.testing.assert_allclose(ours, mirrored_back(theirs), atol=1e-6)
     assert np.ptp(ours, axis=0).max() > 0.2  # something happened
 
@@ -153,7 +168,8 @@ def test_a_ball_that_passes_close_startles_and_no_more():
     ball = {"free": True, "position_m": [9.0, 0.55, 1.75], "velocity_mps": [-16.0, 0.0, 2.4], "released_s": 0.1}
     simulation = run([ball], startle=True, duration_s=2.5)
     assert phases(simulation) == ["play", "startle", "recover_return", "play"]
-    assert events(simulation, "flinched") and not events(simulation, "perceived")
+    assert events(simulation, "flinched")
+    assert not events(simulation, "perceived")
     calm = run([ball], startle=False, duration_s=1.5)
     assert phases(calm) == ["play"]
 
@@ -165,7 +181,8 @@ def test_a_ball_far_aside_is_no_matter():
 
 def test_a_free_ball_that_will_hit_is_met():
     simulation = run([FREE], duration_s=2.5)
-    assert "protect" in phases(simulation) and events(simulation, "contact")
+    assert "protect" in phases(simulation)
+    assert events(simulation, "contact")
     assert events(simulation, "contact")[0]["part"].endswith(("hand", "forearm"))
 
 
@@ -207,5 +224,8 @@ def test_two_people_and_two_balls_mind_their_own():
         simulation.step()
     contacts = [event for event in simulation.world.events if event.kind == "contact"]
     assert sorted(event.entity for event in contacts) == [simulation.world.entity(row) for row in (0, 1)]
-    assert math.dist(simulation.observer.tracks[0].root_m[-1], simulation.observer.tracks[1].root_m[-1]) == pytest.approx(6, abs=0.6)
-    assert Phase(int(simulation.world[Reaction].phase[0])).name and simulation.world[Threat].spent[simulation.world.rows(Threat)].all()
+    assert math.dist(
+        simulation.observer.tracks[0].root_m[-1], simulation.observer.tracks[1].root_m[-1]
+    ) == pytest.approx(6, abs=0.6)
+    assert Phase(int(simulation.world[Reaction].phase[0])).name
+    assert simulation.world[Threat].spent[simulation.world.rows(Threat)].all()

@@ -15,7 +15,9 @@ from engine.body.skeleton import JOINT_COUNT, Pose
 from engine.maths.shapes import nearest_between
 
 
-@pytest.mark.parametrize(("speed", "facing", "wanted_s"), [(1, 1, 0.25), (0, 1, 1.0), (1, 0, 0.30), (0, -1, 1.4), (0.5, 1, 0.625)])
+@pytest.mark.parametrize(
+    ("speed", "facing", "wanted_s"), [(1, 1, 0.25), (0, 1, 1.0), (1, 0, 0.30), (0, -1, 1.4), (0.5, 1, 0.625)]
+)
 def test_time_to_contact_is_eq_4_1(speed, facing, wanted_s):
     assert time_to_contact_s(speed, facing, Settings().timing) == pytest.approx(wanted_s)
 
@@ -28,10 +30,14 @@ def test_the_text_says_the_opposite_of_the_equation():
 
 def test_ease_and_overshoot_meet_without_a_kink():
     h = 1e-6
-    assert ease(1.0) == 1.0 and (1.0 - ease(1.0 - h)) / h < 1e-4
-    assert overshoot(0.0, 0.06, 0.5, 0.12) == 0.0 and overshoot(h, 0.06, 0.5, 0.12) / h < 1e-4
+    assert ease(1.0) == 1.0
+    assert (1.0 - ease(1.0 - h)) / h < 1e-4
+    assert overshoot(0.0, 0.06, 0.5, 0.12) == 0.0
+    assert overshoot(h, 0.06, 0.5, 0.12) / h < 1e-4
     swings = np.array([overshoot(t, 0.06, 0.5, 0.12) for t in np.linspace(0, 2, 400)])
-    assert 0.02 < swings.max() <= 0.06 and swings.min() < 0.0 and abs(swings[-1]) < 1e-5
+    assert 0.02 < swings.max() <= 0.06
+    assert swings.min() < 0.0
+    assert abs(swings[-1]) < 1e-5
 
 
 def test_nearest_places_of_two_segments_against_a_fine_grid():
@@ -42,7 +48,9 @@ def test_nearest_places_of_two_segments_against_a_fine_grid():
         found = np.linalg.norm(a + s * (b - a) - c - t * (d - c))
         p, q = a + grid[:, None] * (b - a), c + grid[:, None] * (d - c)
         least = np.linalg.norm(p[:, None] - q[None], axis=2).min()
-        assert 0 <= s <= 1 and 0 <= t <= 1 and least - 0.02 < found <= least + 1e-9
+        assert 0 <= s <= 1
+        assert 0 <= t <= 1
+        assert least - 0.02 < found <= least + 1e-9
 
 
 def test_overlaps_of_a_body_against_points_along_its_capsules():

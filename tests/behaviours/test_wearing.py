@@ -24,7 +24,9 @@ def clip_named(name, library_clip):
 
 
 @pytest.mark.parametrize("name", CLIPS)
-@pytest.mark.parametrize(("stance", "intensity"), [("hunched", 1.0), ("posture", 1.0), ("slovenly", 0.8), ("beauty-line", -1.0)])
+@pytest.mark.parametrize(
+    ("stance", "intensity"), [("hunched", 1.0), ("posture", 1.0), ("slovenly", 0.8), ("beauty-line", -1.0)]
+)
 def test_feet_stay_where_the_clip_has_them(name, stance, intensity, library_clip):
     clip = clip_named(name, library_clip)
     worn = worn_by(clip.body, stance, intensity)
