@@ -106,15 +106,17 @@ def _line(world, row: int, tick: int, body: Body) -> Line:
     ends = (Pose(b.from_root_m[row], b.from_rotations[row]), Pose(b.to_root_m[row], b.to_rotations[row]))
     joints_m = joints_of(body, source)[0]
     start_m, end_m = (joints_of(body, end)[0] for end in ends)
-    on_line = tuple(
-        abs(b.arcs[row, side, 0]) < 0.01
-        and b.arcs[row, side, 1] == 0.0
-        and led_m[side] == 0.0
-        and in_reach(body, side, joints_m)
+    left, right = (
+        bool(
+            abs(b.arcs[row, side, 0]) < 0.01
+            and b.arcs[row, side, 1] == 0.0
+            and led_m[side] == 0.0
+            and in_reach(body, side, joints_m)
+        )
         for side in range(2)
     )
     return Line(
-        tick, joints_m, start_m, end_m, on_line, com_of(body, source), (com_of(body, ends[0]), com_of(body, ends[1]))
+        tick, joints_m, start_m, end_m, (left, right), com_of(body, source), (com_of(body, ends[0]), com_of(body, ends[1]))
     )
 
 

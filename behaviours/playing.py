@@ -30,7 +30,7 @@ def clip_of(world, row: int) -> Clip:
     return world.assets.clips[int(world[Playback].clip[row])]
 
 
-def clip_time_s(world, row: int, tick: int) -> float:
+def clip_time_s(world, row: int, tick: float) -> float:
     """Where in its clip a character is at a tick, if it plays on."""
     return float(world[Playback].offset_s[row]) + tick * TICK_S
 

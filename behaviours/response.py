@@ -43,6 +43,7 @@ from engine.physics import impact, ragdoll
 from engine.physics.layout import SUB_STEPS
 
 GUARDED = (Phase.STARTLE, Phase.PROTECT, Phase.HOLD)  # in these the sustained pose is what the servos hold
+WORTH_SAYING_MPS = 0.5  # a ball that lies on somebody touches anew each tick: no event
 NEAR_M = 1.5  # a ball farther from the pelvis than its own size plus this meets nobody
 
 
@@ -174,17 +175,18 @@ def strike(world, row: int, ball: int, hit: impact.Hit, tick: int) -> None:
     size_Ns = vector.length(impulse.impulse_Ns)
     hard = size_Ns >= response.least_Ns and (simulated or impulse.approach_mps >= response.least_mps)
     at_s = (tick - 1 + hit.share) * TICK_S
-    world.emit(
-        "contact" if hard else "touch",
-        world.entity(row),
-        at_s=at_s,
-        ball=world.entity(ball),
-        part=hit.part,
-        joint=JOINTS[hit.joint],
-        impulse_Ns=size_Ns,
-        approach_mps=impulse.approach_mps,
-        late_s=lateness_s(world, row, ball, at_s, hit),
-    )
+    if hard or impulse.approach_mps >= WORTH_SAYING_MPS:
+        world.emit(
+            "contact" if hard else "touch",
+            world.entity(row),
+            at_s=at_s,
+            ball=world.entity(ball),
+            part=hit.part,
+            joint=JOINTS[hit.joint],
+            impulse_Ns=size_Ns,
+            approach_mps=impulse.approach_mps,
+            late_s=lateness_s(world, row, ball, at_s, hit),
+        )
     world[Threat].spent[ball] = True
     place_ball(world, ball, thrown)
     if not hard:

@@ -80,7 +80,7 @@ class ThreatSpec(_Section):
     @classmethod
     def _known_kind(cls, kind: str) -> str:
         if kind not in KINDS:
-            raise ValueError(f"unknown kind {kind!r}; {_nearest(kind, KINDS)}")
+            raise ValueError(f"unknown kind {kind!r}; {_nearest(kind, tuple(KINDS))}")
         return kind
 
     @field_validator("target")
@@ -177,7 +177,8 @@ def check_scenario(raw: dict[str, Any], where: str = "scenario", text: str = "")
 def _explain(error: Any, keys: list[str]) -> str:
     dotted = ".".join(keys)
     if error["type"] == "extra_forbidden":
-        section = {"character": CharacterSpec, "threat": ThreatSpec}.get(keys[0], Scenario)
+        sections: dict[str, type[_Section]] = {"character": CharacterSpec, "threat": ThreatSpec}
+        section = StanceSpec if "stance" in keys[:-1] else sections.get(keys[0], Scenario)
         return f"unknown key {dotted!r}; {_nearest(keys[-1], tuple(section.model_fields))}"
     reason = error["msg"].removeprefix("Value error, ")
     given = error.get("input")

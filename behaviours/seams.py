@@ -83,7 +83,7 @@ def elapsed_s(world, row: int, tick: float) -> float:
     return float(tick - world[Residual].since[row]) * TICK_S
 
 
-def is_over(world, row: int, tick: int, half_life_s: float) -> bool:
+def is_over(world, row: int, tick: float, half_life_s: float) -> bool:
     """Whether nothing of the last seam can be seen any more."""
     return elapsed_s(world, row, tick) > 14.0 * half_life_s
 

@@ -225,7 +225,6 @@ class Senses(NamedTuple):
 class Blend(NamedTuple):
     """Moving between two poses (4.3)."""
 
-    knee_rule: Annotated[str, Constant("name", "A7", "ends | least_travel: how the knees' swivel is chosen")] = "ends"
     overshoot_share: Annotated[float, Constant("1", "A6", "amplitude of the damped overshoot that fills a pause")] = (
         0.06
     )
@@ -309,14 +308,14 @@ CHOICES = {
     "solver.method": ("bfgs", "least_squares"),
     "timing.ttc_model": ("equation", "text"),
     "threats.low_path": ("raise", "shorten"),
-    "blend.knee_rule": ("ends", "least_travel"),
 }
 
 
 def constants() -> dict[str, Constant]:
     """Dotted name -> unit, section, meaning, of every constant there is, in the order of this file."""
     table = {}
-    for group_name, group in zip(Settings._fields, Settings(), strict=True):
+    groups: tuple[Any, ...] = Settings()
+    for group_name, group in zip(Settings._fields, groups, strict=True):
         hints = get_type_hints(type(group), include_extras=True)
         for field in group._fields:
             table[f"{group_name}.{field}"] = hints[field].__metadata__[0]

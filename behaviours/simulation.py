@@ -119,7 +119,7 @@ def _stance_of(spec: CharacterSpec, body: Body) -> Worn | None:
 
 def flat_settings(nested: dict[str, Any]) -> dict[str, Any]:
     """{"block": {"offset_m": 0.1}} -> {"block.offset_m": 0.1}. BadInput where a group holds no keys."""
-    flat = {}
+    flat: dict[str, Any] = {}
     for group, values in nested.items():
         if not isinstance(values, dict):
             raise BadInput("scenario", f"settings.{group} must be a table of constants, found {values!r}")

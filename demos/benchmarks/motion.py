@@ -13,6 +13,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from behaviours.components import Phase
+from behaviours.observing import Observer
 from behaviours.scenario import Scenario, check_scenario
 from behaviours.simulation import Simulation
 from engine.clips.clip import Clip
@@ -108,14 +109,14 @@ def run_case(case: Case, clips: dict[str, Clip]) -> dict[str, Any]:
     """What came of it: the metrics of `brace react`, and the comparisons."""
     simulation = play(scenario_of(case), clips)
     report = simulation.report()
-    track = simulation.observer.tracks[0]
+    track = simulation.watch.tracks[0]
     row = report["metrics"] | {"case": case, "finite": bool(np.isfinite(track.pose.rotations).all())}
     row["protect_ms"] = [1e3 * s for s in simulation.tick_s]
     if case.target == "head" and row["contact_error_s"] is not None:
         bare = play(scenario_of(case, protects=False), clips).report()["metrics"]
         row["bare_head_peak_g"], row["bare_first_contact"] = bare["head_peak_g"], bare["first_contact"]
     if case.number % EVERY_MIRRORED == 0 and abs(case.azimuth_deg) > 2.0:
-        row["asymmetry_m"] = asymmetry_m(track, play(scenario_of(case, mirrored=True), clips).observer.tracks[0])
+        row["asymmetry_m"] = asymmetry_m(track, play(scenario_of(case, mirrored=True), clips).watch.tracks[0])
     return row
 
 
@@ -123,15 +124,16 @@ class Timed(Simulation):
     """A simulation that notes how long its ticks of protection took, without the observer's share."""
 
     def __init__(self, scenario: Scenario, find):
-        super().__init__(scenario, find, observe=True)
+        super().__init__(scenario, find)
+        self.watch = self.observer = Observer(self.world, self.world.assets.character_rows)
         self.tick_s: list[float] = []
 
     def step(self, world=None) -> None:
         begun = time.perf_counter()
         self.schedule.tick(self.world)
         passed_s = time.perf_counter() - begun
-        self.observer.look(self.world)
-        if self.observer.tracks[0].phase[-1] in (Phase.STARTLE, Phase.PROTECT):
+        self.watch.look(self.world)
+        if self.watch.tracks[0].phase[-1] in (Phase.STARTLE, Phase.PROTECT):
             self.tick_s.append(passed_s)
 
 

@@ -61,8 +61,8 @@ def _met_by_arm(row: Row) -> float | None:
 
 def _both(row: Row) -> tuple[float, float] | None:
     """Peaks with and without protection, where the ball meets the body in both runs."""
-    pair = row.get("head_peak_g"), row.get("bare_head_peak_g")
-    return None if None in pair else pair
+    own, bare = row.get("head_peak_g"), row.get("bare_head_peak_g")
+    return None if own is None or bare is None else (own, bare)
 
 
 def _spared(row: Row) -> float | None:

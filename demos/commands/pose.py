@@ -160,7 +160,7 @@ def _draw(posed, output: str) -> None:
     figures = [look.Figure(seen.body, *joints_of(seen.body, seen.sustained), look.SUSTAINED_ORANGE)]
     figures += [look.Figure(seen.body, *joints_of(seen.body, pose), colour, GHOST_ALPHA) for pose, colour in ghosts]
     marks = DebugDraw()
-    marks.line(*seen.line_m, look.SUSTAINED_ORANGE)
+    marks.line(seen.line_m[0], seen.line_m[1], look.SUSTAINED_ORANGE)
     scene = look.Scene(
         figures,
         [look.Ball(seen.ball_m, seen.ball_radius_m)],

@@ -107,7 +107,8 @@ def centre_of(footage: Footage) -> tuple[np.ndarray, float]:
 def _people(footage: Footage, arrays: Arrays) -> tuple[list[dict[str, Any]], list[dict[str, Any]]]:
     """The meshes, one for each different body, and the people with their motions."""
     known: dict[bytes, tuple[int, Surface]] = {}
-    meshes, people = [], []
+    meshes: list[dict[str, Any]] = []
+    people: list[dict[str, Any]] = []
     for person in footage.people:
         key = body_key(person.body)
         if key not in known:

@@ -77,7 +77,7 @@ def ball_surface() -> Surface:
                 panel, shade = _panel(axis, sign, strip)
                 points.append(panel.reshape(-1, 3))
                 colours.append(shade.reshape(-1, 1) * np.array(PANELS[axis][strip != 1]))
-                triangles.append(_quads(*panel.shape[:2], flipped=sign < 0.0) + base)
+                triangles.append(_quads(panel.shape[0], panel.shape[1], flipped=sign < 0.0) + base)
                 base += len(points[-1])
     positions = np.concatenate(points).astype("f4")
     joints, weights = np.zeros((base, 4), "u1"), np.tile(np.array([1, 0, 0, 0], "f4"), (base, 1))

@@ -84,8 +84,10 @@ def _jointed(body: Body, coarser: float) -> MannequinMesh:
         triangles.append(piece.triangles + base)
         base += len(piece.vertices)
     whole = np.tile(np.eye(INFLUENCES)[0], (base, 1))
-    merged = map(np.concatenate, (positions, normals, triangles, joints))
-    return MannequinMesh(*merged, whole, np.concatenate(paint), np.ones(base))
+    return MannequinMesh(
+        np.concatenate(positions), np.concatenate(normals), np.concatenate(triangles), np.concatenate(joints), whole,
+        np.concatenate(paint), np.ones(base),
+    )  # fmt: skip
 
 
 def mannequin_parts(body: Body) -> list[Part]:

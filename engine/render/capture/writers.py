@@ -36,4 +36,8 @@ def write_film(path, frames: Iterable[np.ndarray], fps: float, progress: Callabl
     kind = capture_kind(path)
     if kind == "png":
         raise BadInput("OUTPUT", "a film does not fit into one .png: use a filmstrip", str(path))
-    return {"mp4": write_mp4, "gif": write_gif, "folder": write_png_folder}[kind](path, frames, fps, progress)
+    if kind == "mp4":
+        return write_mp4(path, frames, fps, progress)
+    if kind == "gif":
+        return write_gif(path, frames, fps, progress)
+    return write_png_folder(path, frames, fps, progress)
