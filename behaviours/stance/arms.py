@@ -1,4 +1,6 @@
-"""The arms (section 5.3): elbow angle in closed form, then a turn about the line from shoulder to target; or hanging by parameters."""
+"""The arms (section 5.3): elbow angle in closed form, then a turn about the line from shoulder to target; or hanging
+by parameters.
+"""
 
 from __future__ import annotations
 
@@ -21,7 +23,8 @@ NEUTRAL_OUT, NEUTRAL_FORWARD, NEUTRAL_ELBOW, NEUTRAL_PALM = (math.radians(a) for
 NEUTRAL_SWIVEL = math.radians(20.0)
 # how far an arm that hangs follows gravity (1) rather than the chest (0)
 HANG = 0.85
-SOFT_LEAN = 0.1  # radians of sideways lean over which the flank takes an arm up
+SOFT_LEAN = 0.1  # radians of sideways lean over which the flank takes an arm up ...
+MOST_LEAN = 0.45  # ... and about how far it carries it; from there on the arm drops past it
 # how the nearest allowed swivel is looked for
 SWIVEL_STEPS, SWIVEL_STEP = 20, math.radians(6.0)
 SECTIONS, GOLDEN = 18, 0.5 * (math.sqrt(5.0) - 1.0)
@@ -49,16 +52,18 @@ def hang_arm(body, arm, side, rotations, chest, clavicle):
 
 @njit(cache=True)
 def _hanging_from(chest, out):
-    """The frame that an arm without target hangs in: it goes with the chest's heading and follows gravity for the rest.
+    """The frame that an arm without target hangs in: it goes with the chest's heading and follows gravity for the
+    rest.
 
-    So a bent back lets the arms drop and does not carry them behind itself. Sideways gravity pulls only the arm that it
-    pulls off the body; the other one lies against the flank and leans with it.
+    So a bent back lets the arms drop and does not carry them behind itself. Sideways gravity pulls only the arm that
+    it pulls off the body; the other one lies against the flank and leans with it.
     """
     heading = quaternion.about_z(quaternion.heading(chest))
     up = quaternion.unrotate(heading, quaternion.rotate(chest, (0.0, 0.0, 1.0)))
     bow = math.atan2(up[0], up[2])
     lean = out * math.atan2(-up[1], math.hypot(up[0], up[2]))  # + away from this arm, over which it then lies
     onto_flank = 0.5 * (lean + math.sqrt(lean * lean + SOFT_LEAN * SOFT_LEAN)) - 0.5 * SOFT_LEAN
+    onto_flank = MOST_LEAN * math.tanh(onto_flank / MOST_LEAN)
     kept = (1.0 - HANG) * lean + HANG * onto_flank
     tipped = quaternion.multiply(quaternion.about_y((1.0 - HANG) * bow), quaternion.about_x(out * kept))
     return quaternion.multiply(heading, tipped)
@@ -66,7 +71,9 @@ def _hanging_from(chest, out):
 
 @njit(cache=True)
 def ready_arm(side, rotations):
-    """An arm that is about to reach: at the side, the elbow at a right angle. Where it starts from decides nothing but its palm."""
+    """An arm that is about to reach: at the side, the elbow at a right angle. Where it starts from decides nothing
+    but its palm.
+    """
     _put(rotations, SHOULDERS[side], quaternion.IDENTITY)
     _put(rotations, ELBOWS[side], quaternion.about_y(-0.5 * math.pi))
     _put(rotations, WRISTS[side], quaternion.IDENTITY)
@@ -80,18 +87,19 @@ def arm_length_m(body, side):
 
 @njit(cache=True)
 def reach(body, rotations, positions, orientations, side, target_m, swivel_rad):
-    """Puts a wrist on a world target, elbow at a swivel, in place (arrays of one pose). Returns how far it misses, metres."""
-    return limb_ik.apply_arm(
-        body, rotations, positions, orientations, side, target_m, swivel_rad, limb_ik.CARRIED, 0.0
-    )
+    """Puts a wrist on a world target, elbow at a swivel, in place (arrays of one pose). Returns how far it misses,
+    metres.
+    """
+    return limb_ik.apply_arm(body, rotations, positions, orientations, side, target_m, swivel_rad, limb_ik.CARRIED, 0.0)
 
 
 @njit(cache=True)
 def reach_within_limits(body, rotations, positions, orientations, side, target_m, swivel_rad):
-    """`reach` at the allowed swivel that is nearest to the wanted one. Returns the miss, the swivel taken, and the strain.
+    """`reach` at the allowed swivel that is nearest to the wanted one. Returns the miss, the swivel taken, and the
+    strain.
 
-    Where no swivel is allowed, the one that strains least is taken, the arm is held at its limits and the wrist goes no farther
-    than that; the strain is what the limits are short of, radians, else 0.
+    Where no swivel is allowed, the one that strains least is taken, the arm is held at its limits and the wrist goes
+    no farther than that; the strain is what the limits are short of, radians, else 0.
     """
     reach(body, rotations, positions, orientations, side, target_m, swivel_rad)
     least, easiest = strain_rad(body, rotations, side), swivel_rad
@@ -104,9 +112,7 @@ def reach_within_limits(body, rotations, positions, orientations, side, target_m
             strain = strain_rad(body, rotations, side)
             if strain <= ROUNDING_RAD:
                 forbidden = allowed - way * SWIVEL_STEP
-                allowed = _edge_of_allowed(
-                    body, rotations, positions, orientations, side, target_m, forbidden, allowed
-                )
+                allowed = _edge_of_allowed(body, rotations, positions, orientations, side, target_m, forbidden, allowed)
                 return _hold_at_limits(body, rotations, positions, orientations, side, target_m), allowed, 0.0
             if strain < least:
                 least, easiest = strain, allowed
@@ -163,7 +169,9 @@ def _edge_of_allowed(body, rotations, positions, orientations, side, target_m, f
 
 @njit(cache=True)
 def strain_rad(body, rotations, side):
-    """How far shoulder and elbow are beyond their limits: the root of the sum of the squares of what each angle is over."""
+    """How far shoulder and elbow are beyond their limits: the root of the sum of the squares of what each angle is
+    over.
+    """
     total = 0.0
     for joint in (SHOULDERS[side], ELBOWS[side]):
         angle = limits.components(rotations[joint])

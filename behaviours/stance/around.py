@@ -1,4 +1,6 @@
-"""What a shape set knows of the world: where the object is, seen from the character, and what the hands want (section 6)."""
+"""What a shape set knows of the world: where the object is, seen from the character, and what the hands want (section
+6).
+"""
 
 from __future__ import annotations
 
@@ -37,7 +39,9 @@ class Around(NamedTuple):
 
     @property
     def turn(self) -> float:
-        """How far to turn towards the object: 1 to the left, and no less for what is behind (a switch straight behind)."""
+        """How far to turn towards the object: 1 to the left, and no less for what is behind (a switch straight
+        behind).
+        """
         return math.copysign(math.sin(min(abs(self.azimuth_rad), 0.5 * math.pi)), self.azimuth_rad)
 
     @property

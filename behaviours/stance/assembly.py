@@ -1,6 +1,7 @@
 """One whole pose from its parameters, in the paper's order (5): lower body and balance, torso, arms, head.
 
-Nothing is searched here. `balance` finds the ankle offsets and `solver` the amplitudes, both by assembling again and again.
+Nothing is searched here. `balance` finds the ankle offsets and `solver` the amplitudes, both by assembling again and
+again.
 """
 
 from __future__ import annotations

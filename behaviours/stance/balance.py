@@ -1,7 +1,7 @@
 """Balance (section 4): the root ankle's two offsets bring the centre of mass over the place where it is wanted.
 
-In a pose solve the offsets are searched for; while animating they are fed the error, tick by tick. In both cases the lower body
-is solved anew for every offset, so the feet do not move.
+In a pose solve the offsets are searched for; while animating they are fed the error, tick by tick. In both cases the
+lower body is solved anew for every offset, so the feet do not move.
 """
 
 from __future__ import annotations
@@ -60,8 +60,9 @@ def offsets_towards(search, start_rad, error_m):
 def settle(body, plan, search, com_m, figure):
     """One step of the search for a figure assembled at the search's offsets, with only the pelvis solved anew.
 
-    What hangs above the pelvis goes along with it as one piece: a tenth of the cost of assembling, and still a smooth function of
-    the unknowns. Returns the way of every point above the pelvis: (centre, turn, new centre), see `carried`.
+    What hangs above the pelvis goes along with it as one piece: a tenth of the cost of assembling, and still a smooth
+    function of the unknowns. Returns the way of every point above the pelvis: (centre, turn, new centre), see
+    `carried`.
     """
     error = (plan.balance_m[0] - com_m[0], plan.balance_m[1] - com_m[1])
     offsets = offsets_towards(search, (search.offset_rad[0], search.offset_rad[1]), error)
@@ -79,7 +80,8 @@ def carried(way, point):
 
 @njit(cache=True)
 def find_balance(body, plan, unknowns, search, figure):
-    """The search of a pose solve: steps until the place is met, learning on the way (Broyden 1965). Leaves `search` there.
+    """The search of a pose solve: steps until the place is met, learning on the way (Broyden 1965). Leaves `search`
+    there.
 
     Returns how far the centre of mass is from where it is wanted, metres. Assembles the figure with the offsets found.
     """

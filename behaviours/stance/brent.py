@@ -1,8 +1,8 @@
 """Brent's line minimisation (Brent 1973; Press et al., *Numerical Recipes in C*, 10.1 and 10.2) that asks and is told.
 
-As in `behaviours.minimise`, the search never calls the function: whoever drives it evaluates at `trial` and tells the value,
-so any kernel can use it. It first brackets a minimum from where it starts, between two bounds, then narrows the bracket by
-parabolas through the three best points, or by golden sections where those do not help.
+As in `behaviours.minimise`, the search never calls the function: whoever drives it evaluates at `trial` and tells the
+value, so any kernel can use it. It first brackets a minimum from where it starts, between two bounds, then narrows
+the bracket by parabolas through the three best points, or by golden sections where those do not help.
 """
 
 from __future__ import annotations
@@ -55,7 +55,9 @@ def finished(line):
 
 @njit(cache=True)
 def tell(line, value, tolerance):
-    """Takes the function's value at the trial point and sets the next one, or ends. tolerance: of the point's place."""
+    """Takes the function's value at the trial point and sets the next one, or ends. tolerance: of the point's
+    place.
+    """
     line.counts[1] += 1
     phase = line.counts[0]
     if phase == NARROW:

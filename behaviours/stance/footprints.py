@@ -36,7 +36,9 @@ def neutral_width_m(body) -> float:
 def stand(
     body, *, width_m: float | None = None, place_m=(0.0, 0.0), heading_rad=0.0, toes_out_rad=TOES_OUT_RAD, ahead_m=0.0
 ) -> Footprints:
-    """Feet flat on the ground, side by side about a place (2,). ahead_m: how far the left foot is ahead of the right one."""
+    """Feet flat on the ground, side by side about a place (2,). ahead_m: how far the left foot is ahead of the right
+    one.
+    """
     width_m = neutral_width_m(body) if width_m is None else width_m
     facing = quaternion.about_z(heading_rad)
     ankle_m, foot_turned = np.empty((2, 3)), np.empty((2, 4))
@@ -70,8 +72,8 @@ def _raised(body, ankle_m, foot_turned, toe_rad, rise_rad):
 def middle_m(body, feet: Footprints, balance_x: float = 0.0, balance_z: float = 0.0) -> np.ndarray:
     """The place (2,) of the ground that a balance asks for. 0, 0: the middle of the stance.
 
-    balance_x (the paper's X): +1 over the left foot, -1 over the right one. balance_z (the paper's Z): +1 as far ahead as
-    half the foot is long, -1 as far back. Nothing forbids to go past the edge: precarious balance is wanted.
+    balance_x (the paper's X): +1 over the left foot, -1 over the right one. balance_z (the paper's Z): +1 as far
+    ahead as half the foot is long, -1 as far back. Nothing forbids to go past the edge: precarious balance is wanted.
     """
     return _middle(body, *feet, float(balance_x), float(balance_z))
 

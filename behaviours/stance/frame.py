@@ -1,9 +1,9 @@
 """The one place where the paper's frame (X left, Y up, Z forward) meets the project's (X forward, Y left, Z up).
 
-Both are right-handed and the axes change places in a circle, so a turn about a paper axis is the turn about the project axis that
-it becomes: X, sagittal, +X bends forward: about project Y. Z, coronal, +Z bends to the right: about project X. Y, twist, +Y
-turns to the left: about project Z. A joint's three angles are taken together as `engine.body.limits` takes them apart, so
-each of the paper's degrees of freedom is one number with one limit.
+Both are right-handed and the axes change places in a circle, so a turn about a paper axis is the turn about the
+project axis that it becomes: X, sagittal, +X bends forward: about project Y. Z, coronal, +Z bends to the right: about
+project X. Y, twist, +Y turns to the left: about project Z. A joint's three angles are taken together as
+`engine.body.limits` takes them apart, so each of the paper's degrees of freedom is one number with one limit.
 """
 
 from __future__ import annotations

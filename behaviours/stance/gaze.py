@@ -37,10 +37,11 @@ def gaze_error_rad(body, positions, orientations, target_m):
 
 @njit(cache=True)
 def look(body, rotations, positions, orientations, target_m, weight):
-    """Turns neck and head towards a target (3,), in place: rotations (J, 4), positions (J, 3), orientations (J, 4) of one pose.
+    """Turns neck and head towards a target (3,), in place: rotations (J, 4), positions (J, 3), orientations (J, 4) of
+    one pose.
 
-    Seen from the chest the face turns sideways, then up or down, as people do; a turn by the shortest way would tilt the head.
-    The neck takes its share, the head the rest from where that has brought it, both inside their limits.
+    Seen from the chest the face turns sideways, then up or down, as people do; a turn by the shortest way would tilt
+    the head. The neck takes its share, the head the rest from where that has brought it, both inside their limits.
     """
     chest = orientations[BACK]
     rest = direction_angles(quaternion.unrotate(chest, quaternion.rotate(orientations[HEAD], (1.0, 0.0, 0.0))))
@@ -52,7 +53,8 @@ def look(body, rotations, positions, orientations, target_m, weight):
 def direction_angles(direction):
     """(yaw, pitch) of a unit direction: to the left, and up.
 
-    Yaw fades out where it has no meaning, straight up and down, and straight behind, where no head turns and either way is as far.
+    Yaw fades out where it has no meaning, straight up and down, and straight behind, where no head turns and either
+    way is as far.
     """
     level = math.hypot(direction[0], direction[1])
     yaw = math.atan2(direction[1], direction[0])

@@ -1,8 +1,9 @@
-"""The lower body, analytic (section 5.1 and appendix): both feet stay where they are, whatever pelvis and knees are asked for.
+"""The lower body, analytic (section 5.1 and appendix): both feet stay where they are, whatever pelvis and knees are
+asked for.
 
-Four points decide it: the two ankles (given) and the two hips. The root knee's angle gives the length from root ankle to root
-hip; the balance offsets turn that line about the ankle; the free hip lies on a circle about the line from the free foot to the
-root hip. The skeleton is then fitted to the four points.
+Four points decide it: the two ankles (given) and the two hips. The root knee's angle gives the length from root ankle
+to root hip; the balance offsets turn that line about the ankle; the free hip lies on a circle about the line from the
+free foot to the root hip. The skeleton is then fitted to the four points.
 """
 
 from __future__ import annotations
@@ -62,7 +63,9 @@ def ask(body, ankle_m, foot_turned, toe_rad, root, knee_rad, pelvis_rad, pelvis_
 
 @njit(cache=True)
 def facing_rad(ankle_m, foot_turned, root):
-    """The heading of the stance: square to the line through the ankle centres; with the ankles together, the root foot's."""
+    """The heading of the stance: square to the line through the ankle centres; with the ankles together, the root
+    foot's.
+    """
     x, y = ankle_m[0, 0] - ankle_m[1, 0], ankle_m[0, 1] - ankle_m[1, 1]
     if x * x + y * y < 1e-8:
         return quaternion.heading(foot_turned[root])
@@ -79,10 +82,10 @@ def leg_length(thigh_m, shin_m, knee_rad):
 def free_hip(root_hip, free_ankle, hip_vector, width_m, leg_m):
     """The place nearest to the wanted hip vector's on the circle of all that the free leg's length allows (figure 8).
 
-    hip_vector: unit, from root hip to free hip, as the pelvis's Y and Z ask for it; width_m between the hips; leg_m from free ankle
-    to free hip. The paper extends the vector to the circle's plane, or projects its end on the plane where the two
-    are near parallel. The root hip lies on the circle's axis, so both lead to the same ray from the circle's centre, and to the
-    same nearest point; the projection never runs away, so it is the one taken.
+    hip_vector: unit, from root hip to free hip, as the pelvis's Y and Z ask for it; width_m between the hips; leg_m
+    from free ankle to free hip. The paper extends the vector to the circle's plane, or projects its end on the plane
+    where the two are near parallel. The root hip lies on the circle's axis, so both lead to the same ray from the
+    circle's centre, and to the same nearest point; the projection never runs away, so it is the one taken.
     """
     down = vector.subtract(free_ankle, root_hip)
     side_a = max(vector.length(down), 1e-9)
@@ -117,7 +120,9 @@ def _bone(body, joint):
 
 @njit(cache=True)
 def pelvis_turned(body, left_hip, right_hip, pelvis_x_rad):
-    """The pelvis's orientation: along the hip vector, its up as near to the world's as that allows, then tipped by pelvis X."""
+    """The pelvis's orientation: along the hip vector, its up as near to the world's as that allows, then tipped by
+    pelvis X.
+    """
     line = vector.subtract(body.offset_m[HIPS[0]], body.offset_m[HIPS[1]])
     y = vector.unit(vector.subtract(left_hip, right_hip), (0.0, 1.0, 0.0))
     up = vector.unit(vector.reject((0.0, 0.0, 1.0), y), (1.0, 0.0, 0.0))
@@ -131,8 +136,8 @@ def pelvis_turned(body, left_hip, right_hip, pelvis_x_rad):
 def fit_leg(body, side, pelvis, hip, ankle, foot, toe_rad, rotations):
     """Hip, knee, ankle and toe rotations of one leg between two points, written to rotations (J, 4).
 
-    The knee's hinge is square to the leg and to the foot: the knee points over the toes, and the ankle needs no third degree of
-    freedom (shin to foot is a turn about Y, then one about X).
+    The knee's hinge is square to the leg and to the foot: the knee points over the toes, and the ankle needs no third
+    degree of freedom (shin to foot is a turn about Y, then one about X).
     """
     thigh, shin = _bone(body, KNEES[side]), _bone(body, ANKLES[side])
     leg = vector.subtract(hip, ankle)
@@ -164,7 +169,9 @@ def _about_y(cosine):
 
 @njit(cache=True)
 def place_pelvis(body, asked, balance_rad):
-    """Where the pelvis is for what is asked (LowerBody): its place (3,), its orientation, both hips (left, right); world."""
+    """Where the pelvis is for what is asked (LowerBody): its place (3,), its orientation, both hips (left, right);
+    world.
+    """
     left, right = hips_of(asked, balance_rad)
     pelvis = pelvis_turned(body, left, right, asked.pelvis_rad[0])
     return vector.subtract(left, quaternion.rotate(pelvis, body.offset_m[HIPS[0]])), pelvis, left, right
@@ -172,7 +179,9 @@ def place_pelvis(body, asked, balance_rad):
 
 @njit(cache=True)
 def solve_lower_body(body, asked, balance_rad, root_m, rotations):
-    """Writes the pelvis (root_m (3,), rotations row) and both legs (rotations (J, 4)) for what is asked (LowerBody)."""
+    """Writes the pelvis (root_m (3,), rotations row) and both legs (rotations (J, 4)) for what is asked
+    (LowerBody).
+    """
     place, pelvis, left, right = place_pelvis(body, asked, balance_rad)
     root_m[0], root_m[1], root_m[2] = place
     _put(rotations, PELVIS, pelvis)

@@ -1,8 +1,9 @@
 """A stance as something under everything else: the local turns that it adds to any pose of a clip.
 
-A character has a stance, its personality and mood, while it does other things. What the stance does to the spine, the collars and
-the pelvis is taken as turns against the neutral stance, joint by joint, and put under the clip's own rotations; what it does to
-the legs comes as a change of height, a shift of the weight and knees, which footing and leg IK turn into feet that stay.
+A character has a stance, its personality and mood, while it does other things. What the stance does to the spine, the
+collars and the pelvis is taken as turns against the neutral stance, joint by joint, and put under the clip's own
+rotations; what it does to the legs comes as a change of height, a shift of the weight and knees, which footing and
+leg IK turn into feet that stay.
 """
 
 from __future__ import annotations
@@ -35,7 +36,9 @@ class StanceOffsets(NamedTuple):
 
 
 def offsets_of(body: Body, coloured: Shape) -> StanceOffsets:
-    """The offsets of a shape, both it and the neutral stance solved on the same feet, facing +X, without targets or gaze."""
+    """The offsets of a shape, both it and the neutral stance solved on the same feet, facing +X, without targets or
+    gaze.
+    """
     feet = footprints.stand(body)
     neutral = solve_shape(body, shape(), feet)
     stance = solve_shape(body, changed(coloured, gaze=0.0, rise_rad=0.0), feet)
@@ -56,7 +59,9 @@ def offsets_of(body: Body, coloured: Shape) -> StanceOffsets:
 
 
 def put_under(body: Body, clip_rotations: np.ndarray, turns: np.ndarray, weight: float = 1.0) -> np.ndarray:
-    """A clip's local rotations (J, 4) with a share of a stance's turns (J, 4) under them; limits keep the clip's own excess."""
+    """A clip's local rotations (J, 4) with a share of a stance's turns (J, 4) under them; limits keep the clip's own
+    excess.
+    """
     part = rotations.slerp(np.tile([1.0, 0.0, 0.0, 0.0], (len(turns), 1)), turns, weight)
     coloured = np.ascontiguousarray(rotations.multiply(clip_rotations, part))
     clamp_pose(body, np.ascontiguousarray(clip_rotations, float), coloured)

@@ -1,8 +1,9 @@
-"""The penalty on a value that strays from the wanted one (section 5.2, figure 4): four cubic Hermite pieces, two on either side.
+"""The penalty on a value that strays from the wanted one (section 5.2, figure 4): four cubic Hermite pieces, two on
+either side.
 
-On each side the first piece is the basin, from the wanted value to the basin's edge; the second is the wall, from there to the
-far point, beyond which the penalty goes on straight. Smooth everywhere; flat basin: height 0; a certain value: narrow
-basin, high wall; one side favoured: unequal sides.
+On each side the first piece is the basin, from the wanted value to the basin's edge; the second is the wall, from
+there to the far point, beyond which the penalty goes on straight. Smooth everywhere; flat basin: height 0; a certain
+value: narrow basin, high wall; one side favoured: unequal sides.
 """
 
 from __future__ import annotations
@@ -28,7 +29,9 @@ ROW = 9
 
 
 def row(wanted: float, low: Side, high: Side | None = None) -> np.ndarray:
-    """A penalty as the kernels take it, (9,); without `high` both sides are alike. ValueError names a side that is none."""
+    """A penalty as the kernels take it, (9,); without `high` both sides are alike. ValueError names a side that is
+    none.
+    """
     high = low if high is None else high
     for name, side in (("low", low), ("high", high)):
         if not 0.0 < side.basin < side.far or not 0.0 <= side.basin_height <= side.far_height:
@@ -57,7 +60,8 @@ def penalty_of(row, value):
     if stray < 0.0:
         stray, side = -stray, LOW
     basin, basin_height, far, far_height = row[side], row[side + 1], row[side + 2], row[side + 3]
-    # the slopes of parabolas, held to what keeps a cubic from rising over its end and falling back (Fritsch and Carlson 1980)
+    # the slopes of parabolas, held to what keeps a cubic from rising over its end and falling back (Fritsch and
+    # Carlson 1980)
     wall = (far_height - basin_height) / (far - basin)
     basin_slope = min(2.0 * basin_height / basin, 3.0 * wall)
     far_slope = max(2.0 * wall - basin_slope, wall)

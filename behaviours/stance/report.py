@@ -58,24 +58,30 @@ def lines(body: Body, result: StanceResult, set_name: str, intensity: float, mil
     others = {k: v for k, v in result.shape.numbers._asdict().items() if abs(v) > 5e-4 and not _is_unknown(k)}
     said += [f"  {name:<24} {value:+.3f}" for name, value in others.items()]
     said.append(
-        f"  solved in {outcome.cycles} cycles, {outcome.evaluations} evaluations, {outcome.yields} steps of giving way, "
-        f"{milliseconds:.2f} ms"
+        f"  solved in {outcome.cycles} cycles, {outcome.evaluations} evaluations, {outcome.yields} steps of giving "
+        f"way, {milliseconds:.2f} ms"
     )
     return said + [f"  {line}" for line in _errors(result, found)]
 
 
 def _errors(result: StanceResult, found: Measures) -> list[str]:
+    foot_mm, foot_deg = 1000 * found.foot_error_m.max(), math.degrees(found.foot_error_rad.max())
+    over_deg = math.degrees(found.limit_excess_rad)
     said = [
-        f"feet        off by {1000 * found.foot_error_m.max():.2g} mm, {math.degrees(found.foot_error_rad.max()):.2g} deg",
+        f"feet        off by {foot_mm:.2g} mm, {foot_deg:.2g} deg",
         f"balance     off by {1000 * found.balance_error_m:.2g} mm, {100 * found.margin_m:.1f} cm inside the support",
-        f"limits      {'kept' if found.limit_excess_rad < 1e-6 else f'exceeded by {math.degrees(found.limit_excess_rad):.2f} deg'}",
+        f"limits      {'kept' if over_deg < 1e-4 else f'exceeded by {over_deg:.2f} deg'}",
     ]
     for side, name in enumerate(("left", "right")):
         if result.plan.reaching[side]:
             miss = result.wrist_error_m[side]
-            said.append(f"{name:<5} wrist {'on its target' if miss < 1e-3 else f'{100 * miss:.1f} cm short of its target'}")
+            said.append(
+                f"{name:<5} wrist {'on its target' if miss < 1e-3 else f'{100 * miss:.1f} cm short of its target'}"
+            )
     if not math.isnan(found.gaze_error_rad):
-        said.append(f"gaze        {math.degrees(found.gaze_error_rad):.0f} deg from the target, weight {result.plan.gaze:.2f}")
+        said.append(
+            f"gaze        {math.degrees(found.gaze_error_rad):.0f} deg from the target, weight {result.plan.gaze:.2f}"
+        )
     if result.kept < 1.0:
         said.append(f"legs        let the lower body have {100 * result.kept:.0f} % of what was asked")
     return said

@@ -1,8 +1,9 @@
 """Poses joined into movement with ease-in, ease-out (section 7), on feet that never slide (section 4).
 
-Between two solved stances everything that decides a pose goes over from one to the other: the feet (a foot that changes its place
-is lifted), knees and pelvis, the wanted place of the centre of mass, the joints above. Tick by tick the pose is put together
-from that, the root ankle fed with the balance error of the tick before; the lower body is solved anew each time.
+Between two solved stances everything that decides a pose goes over from one to the other: the feet (a foot that
+changes its place is lifted), knees and pelvis, the wanted place of the centre of mass, the joints above. Tick by tick
+the pose is put together from that, the root ankle fed with the balance error of the tick before; the lower body is
+solved anew each time.
 """
 
 from __future__ import annotations
@@ -20,7 +21,7 @@ from behaviours.stance.lower_body import LowerBody
 from behaviours.stance.solve import StanceResult
 from behaviours.timing import arc, ease
 from engine.body import kinematics
-from engine.body.skeleton import ANKLES, HEAD, HIPS, KNEES, PELVIS, WRISTS, Body, Pose
+from engine.body.skeleton import HIPS, KNEES, PELVIS, WRISTS, Body, Pose
 from engine.maths import quaternion, rotations, vector
 
 TICK_RATE_HZ = 120
@@ -63,8 +64,7 @@ class Held(NamedTuple):
 def frames(body: Body, start: StanceResult, moves: list[Move], rate_hz: int = TICK_RATE_HZ) -> Iterator[Frame]:
     """All ticks of a sequence, from the start on."""
     here, figure = held(body, start), new_figure()
-    offsets, error = start.balance_rad, (0.0, 0.0)
-    positions = start.joints_m
+    positions, error = start.joints_m, (0.0, 0.0)
     for move in moves:
         there = held(body, move.to)
         # the dominant foot may change at any time: its offsets are those of the hip over it, wherever that is now
@@ -86,7 +86,9 @@ def frames(body: Body, start: StanceResult, moves: list[Move], rate_hz: int = TI
 
 
 def held(body: Body, result: StanceResult) -> Held:
-    """What a stance holds. Knees and pelvis as they are, not as they were asked for: they agree, whichever foot is the root."""
+    """What a stance holds. Knees and pelvis as they are, not as they were asked for: they agree, whichever foot is
+    the root.
+    """
     lower, q = result.plan.lower, result.pose.rotations
     return Held(
         feet=result.feet,
@@ -111,9 +113,11 @@ def pelvis_angles(body: Body, facing, pelvis) -> np.ndarray:
 
 
 def between(body: Body, start: Held, end: Held, progress: float, lift_m: float, out) -> tuple[LowerBody, np.ndarray]:
-    """The lower body and the wanted place (2,) a share of the way from one stance to the next; writes the upper joints.
+    """The lower body and the wanted place (2,) a share of the way from one stance to the next; writes the upper
+    joints.
 
-    The pelvis is kept exact: the free knee gives, as it must when its foot is in the air. At both ends it agrees anyway.
+    The pelvis is kept exact: the free knee gives, as it must when its foot is in the air. At both ends it agrees
+    anyway.
     """
     weight = ease(progress)
     feet = mixed_feet(body, start.feet, end.feet, weight, lift_m * arc(progress))

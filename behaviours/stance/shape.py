@@ -1,13 +1,15 @@
-"""What a stance is made of (section 6): a *state set* that says which kind of shape, and a *shape vector* of numbers. All zeros is neutral.
+"""What a stance is made of (section 6): a *state set* that says which kind of shape, and a *shape vector* of numbers.
+All zeros is neutral.
 
-Signs are the paper's: X bends forward, Z bends or leans to the right, Y turns to the left; balance X is to the left, Z ahead.
+Signs are the paper's: X bends forward, Z bends or leans to the right, Y turns to the left; balance X is to the left,
+Z ahead.
 """
 
 from __future__ import annotations
 
 import difflib
-from collections.abc import Iterable
-from typing import NamedTuple, Protocol
+from collections.abc import Iterable, Mapping
+from typing import Any, NamedTuple, Protocol
 
 import numpy as np
 
@@ -17,7 +19,8 @@ from behaviours.stance.torso import ALIGNED, COLLAR_STATES, SHAPE_CLASSES, STRAI
 from engine.core.errors import BadInput
 from engine.core.random import Stream
 
-# the foot that carries the balance: the one with more weight on it, or one that is named (the other may then be lifted)
+# the foot that carries the balance: the one with more weight on it, or one that is named (the other may then be
+# lifted)
 DOMINANT = ("heavier", "left", "right")
 HEAVIER, LEFT_FOOT, RIGHT_FOOT = DOMINANT
 
@@ -52,7 +55,9 @@ ALLOWED = {
 
 
 class Numbers(NamedTuple):
-    """The shape vector. Amplitudes are wanted values: the solver keeps to them unless a wrist target or a limit forbids."""
+    """The shape vector. Amplitudes are wanted values: the solver keeps to them unless a wrist target or a limit
+    forbids.
+    """
 
     coronal: float = 0.0
     sagittal: float = 0.0
@@ -157,7 +162,7 @@ class Shape(NamedTuple):
     wishes: tuple[Wish, ...] = tuple(WISHES.values())
 
 
-def shape(*, wishes: dict[str, Wish] | None = None, **values) -> Shape:
+def shape(*, wishes: Mapping[str, Wish] | None = None, **values: Any) -> Shape:
     """A shape from the names of its states and numbers; wishes: by unknown, those that differ from WISHES.
 
     BadInput names what is unknown, not allowed or not finite.
@@ -207,7 +212,9 @@ def varied(base: Shape, chance: Stream, amount: float) -> Shape:
 
 
 def wind_up(base: Shape, share: float = 0.3) -> Shape:
-    """The shape taken before moving into another: its vector negated and reduced (section 6), as far as ranges allow."""
+    """The shape taken before moving into another: its vector negated and reduced (section 6), as far as ranges
+    allow.
+    """
     opposite = {name: within(name, -share * value) for name, value in base.numbers._asdict().items()}
     return base._replace(numbers=Numbers(**{**opposite, "width_m": base.numbers.width_m, "gaze": base.numbers.gaze}))
 

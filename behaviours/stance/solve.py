@@ -64,9 +64,10 @@ def solve_stance(
 ) -> StanceResult:
     """The stance of a shape set at an intensity. Pure; world points (3,) or None.
 
-    object_m: what the stance is about, and what is looked at (a wrist's target is, where there is no object). feet: where they
-    stand, by default side by side about the origin, as wide as the set says. balance_m (2,): where the centre of mass is
-    to project, instead of where the set puts it. BadInput for an unknown set and for numbers that are not finite.
+    object_m: what the stance is about, and what is looked at (a wrist's target is, where there is no object). feet:
+    where they stand, by default side by side about the origin, as wide as the set says. balance_m (2,): where the
+    centre of mass is to project, instead of where the set puts it. BadInput for an unknown set and for numbers that
+    are not finite.
     """
     feet_given = feet is not None
     feet = feet if feet is not None else footprints.stand(body)
@@ -139,14 +140,12 @@ def plan_of(body: Body, wanted: Shape, feet: Footprints, reach_m=(None, None), l
         lower=lower,
         classes=np.array([torso.SHAPE_CLASSES.index(c) for c in (states.sagittal_class, states.coronal_class)]),
         opposed=np.array([states.collar_y == torso.OPPOSED, states.collar_z == torso.OPPOSED]),
-        arm=np.array(
-            [
-                (n.arm_out_left_rad, n.arm_forward_left_rad, n.elbow_left_rad, n.arm_turn_left_rad, n.palm_left_rad,
-                 n.swivel_left_rad),
-                (n.arm_out_right_rad, n.arm_forward_right_rad, n.elbow_right_rad, n.arm_turn_right_rad, n.palm_right_rad,
-                 n.swivel_right_rad),
-            ]
-        ),
+        arm=np.array([
+            (n.arm_out_left_rad, n.arm_forward_left_rad, n.elbow_left_rad,
+             n.arm_turn_left_rad, n.palm_left_rad, n.swivel_left_rad),
+            (n.arm_out_right_rad, n.arm_forward_right_rad, n.elbow_right_rad,
+             n.arm_turn_right_rad, n.palm_right_rad, n.swivel_right_rad),
+        ]),
         reaching=reaching,
         wrist_m=np.array([(0.0, 0.0, 0.0) if p is None else p for p in reach_m], float),
         look_at_m=np.array((0.0, 0.0, 0.0) if look_at_m is None else look_at_m, float),
@@ -176,12 +175,15 @@ def wishes_of(body: Body, wanted: Shape, places: tuple[Place, ...] = ()) -> solv
 
 
 def reach_penalty(arm_m: float) -> np.ndarray:
-    """The penalty on the distance from shoulder to target: none from a well bent to an easily stretched arm, then rising.
+    """The penalty on the distance from shoulder to target: none from a well bent to an easily stretched arm, then
+    rising.
 
-    Gently, so that the line searches are not led along a steep-sided valley; what is lacking in the end is made up for by
-    `solver.give_way`.
+    Gently, so that the line searches are not led along a steep-sided valley; what is lacking in the end is made up
+    for by `solver.give_way`.
     """
-    return penalty.row(0.7 * arm_m, Side(0.25 * arm_m, 0.0, 0.7 * arm_m, 1.0), Side(0.12 * arm_m, 0.0, 0.6 * arm_m, 1.0))
+    return penalty.row(
+        0.7 * arm_m, Side(0.25 * arm_m, 0.0, 0.7 * arm_m, 1.0), Side(0.12 * arm_m, 0.0, 0.6 * arm_m, 1.0)
+    )
 
 
 def unknowns_of(wanted: Shape) -> np.ndarray:
@@ -205,7 +207,9 @@ def _solve_within_limits(body, plan, wishes):
 
 
 def _share_allowed(body, plan, unknowns, refused):
-    """The largest share of the lower body's wishes, below the one refused, that the legs' limits allow with this torso."""
+    """The largest share of the lower body's wishes, below the one refused, that the legs' limits allow with this
+    torso.
+    """
     allowed, figure = 0.0, new_figure()
     for _ in range(10):
         middle = 0.5 * (allowed + refused)
@@ -233,7 +237,10 @@ def _eased(body, plan, share) -> Plan:
     lower = plan.lower
     middle = footprints.middle_m(body, Footprints(lower.ankle_m, lower.foot_turned, lower.toe_rad))
     knees = NEUTRAL_KNEE_RAD + share * (lower.knee_rad - NEUTRAL_KNEE_RAD)
-    lower = lower_body.ask(body, *lower[:4], knees, share * lower.pelvis_rad, lower.pelvis_exact)
+    lower = lower_body.ask(
+        body, lower.ankle_m, lower.foot_turned, lower.toe_rad, lower.root,
+        knees, share * lower.pelvis_rad, lower.pelvis_exact,
+    )  # fmt: skip
     return plan._replace(lower=lower, balance_m=middle + share * (plan.balance_m - middle))
 
 

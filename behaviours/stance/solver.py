@@ -1,11 +1,13 @@
-"""The torso's solver (section 5.2): amplitudes that keep to the shape and bring the shoulders within reach of the targets.
+"""The torso's solver (section 5.2): amplitudes that keep to the shape and bring the shoulders within reach of the
+targets.
 
-The objective is eq. 5, a weighted sum of penalties: one for each unknown about its wanted value, one for each wrist target on the
-distance from that arm's shoulder, and one for each further place in the world. It is minimised along one unknown after the other by
-Brent's method, cycle after cycle, until it is within tolerance of zero or stops improving.
+The objective is eq. 5, a weighted sum of penalties: one for each unknown about its wanted value, one for each wrist
+target on the distance from that arm's shoulder, and one for each further place in the world. It is minimised along
+one unknown after the other by Brent's method, cycle after cycle, until it is within tolerance of zero or stops
+improving.
 
-Beyond the paper: amplitudes never leave the joints' limits, and where the minimum leaves a target out of reach, the shape gives
-way by as little as the reach needs (`yielding`), without weights tuned by hand.
+Beyond the paper: amplitudes never leave the joints' limits, and where the minimum leaves a target out of reach, the
+shape gives way by as little as the reach needs (`yielding`), without weights tuned by hand.
 """
 
 from __future__ import annotations
@@ -66,7 +68,9 @@ def shape_penalty(wishes, unknowns):
 
 @njit(cache=True)
 def world_penalty(plan, wishes, figure, way):
-    """The part of eq. 5 that the figure decides, carried where its balance takes it: wrist targets and further places."""
+    """The part of eq. 5 that the figure decides, carried where its balance takes it: wrist targets and further
+    places.
+    """
     total = 0.0
     for side in range(2):
         if plan.reaching[side]:
@@ -80,7 +84,9 @@ def world_penalty(plan, wishes, figure, way):
 
 @njit(cache=True)
 def objective(body, plan, wishes, unknowns, search, figure):
-    """Eq. 5. Assembles the pose (lower body and balance, torso, arms, head) only where something in the world asks for it."""
+    """Eq. 5. Assembles the pose (lower body and balance, torso, arms, head) only where something in the world asks
+    for it.
+    """
     total = shape_penalty(wishes, unknowns)
     if not _world_matters(plan, wishes):
         return total
@@ -106,7 +112,9 @@ def minimise_line(body, plan, wishes, unknowns, u, value, bounds, search, figure
 
 @njit(cache=True)
 def minimise_cycles(body, plan, wishes, unknowns, bounds, search, figure):
-    """Cycles of line searches until the objective is zero or stops improving. Returns objective, cycles, evaluations."""
+    """Cycles of line searches until the objective is zero or stops improving. Returns objective, cycles,
+    evaluations.
+    """
     line = brent.new_line()
     before, cycles, evaluations = np.inf, 0, 0
     while True:
@@ -119,16 +127,15 @@ def minimise_cycles(body, plan, wishes, unknowns, bounds, search, figure):
         before = value
         for u in range(len(unknowns)):
             if wishes.free[u]:
-                value, more = minimise_line(
-                    body, plan, wishes, unknowns, u, value, bounds, search, figure, line
-                )
+                value, more = minimise_line(body, plan, wishes, unknowns, u, value, bounds, search, figure, line)
                 evaluations += more
         cycles += 1
 
 
 @njit(cache=True)
 def solve_torso(body, plan, wishes, unknowns, search, figure, found):
-    """Finds the unknowns (6,), in place, from where they are; assembles the figure, balanced, its arms within their limits.
+    """Finds the unknowns (6,), in place, from where they are; assembles the figure, balanced, its arms within their
+    limits.
 
     found (3, 2), written for the left and right wrist: see the rows of `wrists`. Returns an Outcome.
     """

@@ -1,7 +1,7 @@
 """Changing the stance's width, or its place: steps from one solved stance to another (section 8).
 
-Nobody lifts a foot that carries weight. So for each foot that has to go, the weight first goes over the other one, which becomes
-dominant; then the foot steps; at the end comes the new stance.
+Nobody lifts a foot that carries weight. So for each foot that has to go, the weight first goes over the other one,
+which becomes dominant; then the foot steps; at the end comes the new stance.
 """
 
 from __future__ import annotations
@@ -27,7 +27,9 @@ FOOT_NAMES = (LEFT_FOOT, RIGHT_FOOT)
 
 
 def steps_to(body: Body, start: StanceResult, end: StanceResult, first: int | None = None) -> list[Move]:
-    """The moves from one stance to another whose feet stand elsewhere. first: the side to step first, by default the lighter."""
+    """The moves from one stance to another whose feet stand elsewhere. first: the side to step first, by default the
+    lighter.
+    """
     moves, feet = [], start.feet
     if first is None:
         first = LEFT if start.plan.lower.root == RIGHT else RIGHT
@@ -42,11 +44,16 @@ def steps_to(body: Body, start: StanceResult, end: StanceResult, first: int | No
 
 
 def standing_on(body: Body, shape: Shape, feet: Footprints, side: int, share: float) -> StanceResult:
-    """The shape's stance with weight over one foot (share 1: all of it), which is dominant, and both knees ready to give."""
+    """The shape's stance with weight over one foot (share 1: all of it), which is dominant, and both knees ready to
+    give.
+    """
     flat = footprints.raised(body, feet, -feet.toe_rad)
     over = share if side == LEFT else -share
     place_m = footprints.middle_m(body, flat, over)
-    numbers, ready = shape.numbers, max(LEAST_KNEE_RAD, *(_knee_to_reach(body, flat, place_m, k) for k in (LEFT, RIGHT)))
+    numbers, ready = (
+        shape.numbers,
+        max(LEAST_KNEE_RAD, *(_knee_to_reach(body, flat, place_m, k) for k in (LEFT, RIGHT))),
+    )
     eased = changed(
         shape, dominant=FOOT_NAMES[side], trade_off=PELVIS_EXACT, pelvis_z_rad=0.0, rise_rad=0.0, balance_x=0.0,
         knee_left_rad=max(numbers.knee_left_rad, ready), knee_right_rad=max(numbers.knee_right_rad, ready),

@@ -1,8 +1,9 @@
 """The torso (section 5.2, second appendix): the spine's shape classes and the collar bones.
 
-The spine's bending in the sagittal plane (X) and in the coronal one (Z) belongs each to a class: a row of weights over its four joints.
-A degree of freedom is amplitude * weight, radians (eq. 1 to 4). The twist (Y) is shared equally by the four. Each collar bone
-turns about Y (forward, back) and Z (up, down); the two are *aligned*, both shoulders the same way, or *opposed*, one rigid unit.
+The spine's bending in the sagittal plane (X) and in the coronal one (Z) belongs each to a class: a row of weights
+over its four joints. A degree of freedom is amplitude * weight, radians (eq. 1 to 4). The twist (Y) is shared equally
+by the four. Each collar bone turns about Y (forward, back) and Z (up, down); the two are *aligned*, both shoulders
+the same way, or *opposed*, one rigid unit.
 """
 
 from __future__ import annotations
@@ -39,7 +40,9 @@ CORONAL, SAGITTAL, TRANSVERSE, COLLAR_Y, COLLAR_Z, ABDOMEN_X = range(len(UNKNOWN
 
 @njit(cache=True)
 def spine_angles(classes, unknowns, joint):
-    """The paper's angles (X, Y, Z) of one joint of SPINE. classes: rows of WEIGHTS for the sagittal and coronal plane."""
+    """The paper's angles (X, Y, Z) of one joint of SPINE. classes: rows of WEIGHTS for the sagittal and coronal
+    plane.
+    """
     x = unknowns[SAGITTAL] * WEIGHTS[classes[0], 0, joint]
     z = unknowns[CORONAL] * WEIGHTS[classes[1], 1, joint]
     if joint == 0:
@@ -49,7 +52,9 @@ def spine_angles(classes, unknowns, joint):
 
 @njit(cache=True)
 def collar_angles(opposed, unknowns, side):
-    """Y and Z of one collar bone. Aligned: + is both shoulders back, both up; opposed: + turns left, lifts the left one."""
+    """Y and Z of one collar bone. Aligned: + is both shoulders back, both up; opposed: + turns left, lifts the left
+    one.
+    """
     y, z = unknowns[COLLAR_Y], unknowns[COLLAR_Z]
     if side == 1:
         y = y if opposed[0] else -y
@@ -61,7 +66,8 @@ def collar_angles(opposed, unknowns, side):
 def shape_torso(body, classes, opposed, unknowns, rotations):
     """Writes the local rotations (J, 4) of spine and collar bones.
 
-    Amplitudes inside `amplitude_bounds` break no limit; the abdomen's offset, which adds to one of them, is held at it here.
+    Amplitudes inside `amplitude_bounds` break no limit; the abdomen's offset, which adds to one of them, is held at
+    it here.
     """
     for k in range(len(SPINE)):
         x, y, z = spine_angles(classes, unknowns, k)
@@ -80,7 +86,9 @@ def _put(rotations, joint, q):
 
 @njit(cache=True)
 def amplitude_bounds(body, classes, opposed):
-    """(6, 2) how far each unknown may go before a joint meets its limit: shapes stop there whole, they do not deform."""
+    """(6, 2) how far each unknown may go before a joint meets its limit: shapes stop there whole, they do not
+    deform.
+    """
     bounds = np.empty((len(UNKNOWNS), 2))
     low, high = body.limit_low_rad, body.limit_high_rad
     for u in range(len(UNKNOWNS)):

@@ -1,4 +1,6 @@
-"""Wrists on their targets: the figure finished, in balance, with its arms inside their limits, and what a reach lacks."""
+"""Wrists on their targets: the figure finished, in balance, with its arms inside their limits, and what a reach
+lacks.
+"""
 
 from __future__ import annotations
 
@@ -29,11 +31,14 @@ def reach_distance_m(plan, positions, side):
 
 @njit(cache=True)
 def finish(body, plan, unknowns, search, figure, wrists):
-    """The figure of the unknowns, in balance with its arms within their limits. Returns how far off balance it is, metres."""
+    """The figure of the unknowns, in balance with its arms within their limits. Returns how far off balance it is,
+    metres.
+    """
     balance.find_balance(body, plan, unknowns, search, figure)
     error_m = 0.0
     for attempt in range(FINISHING + 1):
-        reach_targets(body, plan, figure, wrists)
+        # from the third time on the swivels stay near those taken, or two that are as good could take turns for ever
+        reach_targets(body, plan, figure, wrists, attempt >= 2)
         com = kinematics.centre_of_mass(body, figure.positions, figure.orientations)
         error = (plan.balance_m[0] - com[0], plan.balance_m[1] - com[1])
         error_m = math.hypot(error[0], error[1])
@@ -45,10 +50,10 @@ def finish(body, plan, unknowns, search, figure, wrists):
 
 
 @njit(cache=True)
-def reach_targets(body, plan, figure, wrists):
+def reach_targets(body, plan, figure, wrists, stay):
     """Puts the wrists that have one on their targets, in place, and writes what came of it to `wrists` (3, 2)."""
     for side in range(2):
-        wanted = plan.arm[side, arms.SWIVEL] + arms.NEUTRAL_SWIVEL
+        wanted = wrists[SWIVEL, side] if stay else plan.arm[side, arms.SWIVEL] + arms.NEUTRAL_SWIVEL
         wrists[MISS, side], wrists[SWIVEL, side], wrists[STRAIN, side] = 0.0, wanted, 0.0
         if plan.reaching[side]:
             wrists[MISS, side], wrists[SWIVEL, side], wrists[STRAIN, side] = arms.reach_within_limits(
@@ -58,14 +63,18 @@ def reach_targets(body, plan, figure, wrists):
 
 @njit(cache=True)
 def too_far_m(body, plan, way, positions, side):
-    """By how much a shoulder, carried along a way (`balance.settle`), is too far from its target for a comfortable arm."""
+    """By how much a shoulder, carried along a way (`balance.settle`), is too far from its target for a comfortable
+    arm.
+    """
     away = vector.distance(balance.carried(way, positions[SHOULDERS[side]]), plan.wrist_m[side])
     return away - COMFORTABLE * arms.arm_length_m(body, side)
 
 
 @njit(cache=True)
 def greatest_lack_m(body, plan, figure, wrists):
-    """What a finished figure lacks: how much too far the worse shoulder is and how far its arm is beyond its limits, as metres."""
+    """What a finished figure lacks: how much too far the worse shoulder is and how far its arm is beyond its limits,
+    as metres.
+    """
     worst = 0.0
     for side in range(2):
         if plan.reaching[side]:
@@ -77,7 +86,8 @@ def greatest_lack_m(body, plan, figure, wrists):
 
 @njit(cache=True)
 def lacks_at(body, plan, unknowns, search, figure, wrists, lacks):
-    """Writes (2,) what each wrist lacks with these unknowns, metres, negative where there is room to spare. Leaves the arms unfinished.
+    """Writes (2,) what each wrist lacks with these unknowns, metres, negative where there is room to spare. Leaves
+    the arms unfinished.
 
     Arms are strained as much as they are at the swivels that they have taken.
     """

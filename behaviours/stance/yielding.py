@@ -1,10 +1,10 @@
 """A shape that gives way to a reach it fights (section 8 asks for it: the paper tunes weights by hand).
 
-Where the objective's minimum leaves a target out of reach, or an arm beyond its limits, the unknowns move on, as little as the reach
-needs. Two things are weighed in least squares: how far each unknown goes from the minimum, in the measure of its wish, and
-what the wrists lack, which counts so much more that half a millimetre of it is left where a shape has to give way
-altogether. So what is wanted firmly (high weight, near wall) moves little, as with weights grown until the reach is met. The
-abdomen may help even where its shape does not let it.
+Where the objective's minimum leaves a target out of reach, or an arm beyond its limits, the unknowns move on, as
+little as the reach needs. Two things are weighed in least squares: how far each unknown goes from the minimum, in the
+measure of its wish, and what the wrists lack, which counts so much more that half a millimetre of it is left where a
+shape has to give way altogether. So what is wanted firmly (high weight, near wall) moves little, as with weights
+grown until the reach is met. The abdomen may help even where its shape does not let it.
 """
 
 from __future__ import annotations
@@ -43,7 +43,9 @@ class Yielding(NamedTuple):
 
 @njit(cache=True)
 def give_way(body, plan, wishes, unknowns, bounds, search, figure, wrists):
-    """Moves the unknowns (6,), in place. Finishes the figure; returns (steps, evaluations, balance error in metres)."""
+    """Moves the unknowns (6,), in place. Finishes the figure; returns (steps, evaluations, balance error in
+    metres).
+    """
     stiffness = wishes.weight / wishes.wanted[:, penalty.HIGH + 2] ** 2
     task = Yielding(body, plan, bounds, unknowns.copy(), stiffness, search, figure, wrists)
     steps = evaluations = 0
@@ -87,7 +89,9 @@ def _newton(task, unknowns):
 
 @njit(cache=True)
 def _search_lines(task, unknowns):
-    """Brent's search along each unknown in turn, in place: it finds its way where slopes lead astray. Returns the evaluations."""
+    """Brent's search along each unknown in turn, in place: it finds its way where slopes lead astray. Returns the
+    evaluations.
+    """
     lacks, line, evaluations = np.empty(2), brent.new_line(), 1
     value = _weigh_finished(task, unknowns, lacks)
     for u in range(len(unknowns)):
@@ -148,8 +152,8 @@ def _slope_along(task, unknowns, lacks, slopes, step):
 def least_squares_step(minimum, unknowns, stiffness, lacks, slopes, bounds, step):
     """Writes the step (6,) of least squares.
 
-    A wrist that lacks nothing, nor will after the step, has no say in it. An unknown that would pass a bound stops there, and
-    the others make up for it.
+    A wrist that lacks nothing, nor will after the step, has no say in it. An unknown that would pass a bound stops
+    there, and the others make up for it.
     """
     free, counts = np.ones(len(step), np.bool_), lacks > 0.0
     left = lacks.copy()

@@ -1,7 +1,9 @@
-"""A stance in plain numpy and SciPy: the paper's method written down again, one equation after the other, for comparison.
+"""A stance in plain numpy and SciPy: the paper's method written down again, one equation after the other, for
+comparison.
 
-Nothing of `behaviours.stance` is called here but its tables and the wishes of the case; rotations are SciPy's, the centre of mass is
-brought over its place by SciPy's root finder, the lines are searched by SciPy's Brent. It knows no limits of joints.
+Nothing of `behaviours.stance` is called here but its tables and the wishes of the case; rotations are SciPy's, the
+centre of mass is brought over its place by SciPy's root finder, the lines are searched by SciPy's Brent. It knows no
+limits of joints.
 """
 
 from __future__ import annotations
@@ -69,8 +71,10 @@ def legs(body, lower, offsets):
     facing = turn(UP, np.arctan2(-line[0], line[1]))
     bones = [(np.linalg.norm(o[KNEES[s]]), np.linalg.norm(o[ANKLES[s]])) for s in (0, 1)]
     lengths = [np.sqrt(a * a + b * b + 2 * a * b * np.cos(k)) for (a, b), k in zip(bones, lower.knee_rad, strict=True)]
-    hips = [None, None]
-    hips[root_side] = lower.ankle_m[root_side] + (facing * paper(offsets[0], 0.0, offsets[1])).apply(UP) * lengths[root_side]
+    hips = [np.zeros(3), np.zeros(3)]
+    hips[root_side] = (
+        lower.ankle_m[root_side] + (facing * paper(offsets[0], 0.0, offsets[1])).apply(UP) * lengths[root_side]
+    )
     width = o[HIPS[free]] - o[HIPS[root_side]]
     wanted = (facing * turn(UP, lower.pelvis_rad[1]) * turn(AHEAD, lower.pelvis_rad[2])).apply(unit(width))
     to_foot = lower.ankle_m[free] - hips[root_side]
@@ -128,11 +132,16 @@ def hanging(arm, side, chest, clavicle):
     up = (heading.inv() * chest).apply(UP)
     bow, lean = np.arctan2(up[0], up[2]), out * np.arctan2(-up[1], np.hypot(up[0], up[2]))
     flank = 0.5 * (lean + np.hypot(lean, arms.SOFT_LEAN)) - 0.5 * arms.SOFT_LEAN
+    flank = arms.MOST_LEAN * np.tanh(flank / arms.MOST_LEAN)
     kept = (1 - arms.HANG) * lean + arms.HANG * flank
     base = heading * turn(LEFTWARDS, (1 - arms.HANG) * bow) * turn(AHEAD, out * kept)
-    lift = Rotation.from_rotvec([out * (arm[arms.OUT] + arms.NEUTRAL_OUT), -(arm[arms.FORWARD] + arms.NEUTRAL_FORWARD), 0.0])
+    lift = Rotation.from_rotvec(
+        [out * (arm[arms.OUT] + arms.NEUTRAL_OUT), -(arm[arms.FORWARD] + arms.NEUTRAL_FORWARD), 0.0]
+    )
     upper = base * lift * turn(UP, -out * arm[arms.TURN])
-    elbow = turn(LEFTWARDS, -(arm[arms.ELBOW] + arms.NEUTRAL_ELBOW)) * turn(UP, -out * (arm[arms.PALM] + arms.NEUTRAL_PALM))
+    elbow = turn(LEFTWARDS, -(arm[arms.ELBOW] + arms.NEUTRAL_ELBOW)) * turn(
+        UP, -out * (arm[arms.PALM] + arms.NEUTRAL_PALM)
+    )
     return {SHOULDERS[side]: clavicle.inv() * upper, ELBOWS[side]: elbow, WRISTS[side]: Rotation.identity()}
 
 
@@ -186,7 +195,9 @@ def follow(body, joints, turns, local, which):
 
 
 def assembled(body, plan, unknowns, offsets):
-    """All joints (21, 3) and the place (2,) of the centre of mass, in the paper's order of lower body, torso, arms, head."""
+    """All joints (21, 3) and the place (2,) of the centre of mass, in the paper's order of lower body, torso, arms,
+    head.
+    """
     place, local = legs(body, plan.lower, offsets)
     local |= spine(plan, unknowns)
     joints, turns = {PELVIS: place}, {PELVIS: local[PELVIS]}
@@ -209,7 +220,11 @@ def assembled(body, plan, unknowns, offsets):
 
 def balanced(body, plan, unknowns, start):
     """The joints with the centre of mass over its place, and the offsets that bring it there."""
-    found = root(lambda offsets: assembled(body, plan, unknowns, offsets)[1] - plan.balance_m, start, tol=1e-8)
+
+    def error(offsets):
+        return assembled(body, plan, unknowns, offsets)[1] - plan.balance_m
+
+    found = root(error, start, tol=1e-8)
     return assembled(body, plan, unknowns, found.x)[0], found.x
 
 

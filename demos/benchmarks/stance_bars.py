@@ -1,7 +1,9 @@
-"""`brace bench --stance`: how good stances are, over a seeded sample of solves of all shape sets. Every figure has a bar.
+"""`brace bench --stance`: how good stances are, over a seeded sample of solves of all shape sets. Every figure has a
+bar.
 
-A case is a set, an intensity in its range, mostly an object, often one or two wrist targets. Each is solved, and once more a
-hundredth of intensity on, where nothing may jump. Then a crouch, a twist and a shift of the weight are played on narrow and wide feet.
+A case is a set, an intensity in its range, mostly an object, often one or two wrist targets. Each is solved, and once
+more a hundredth of intensity on, where nothing may jump. Then a crouch, a twist and a shift of the weight are played
+on narrow and wide feet.
 """
 
 from __future__ import annotations
@@ -14,8 +16,8 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from behaviours.stance import arms, footprints, sequence, torso, wrists
-from behaviours.stance.balance import find_balance, new_search
 from behaviours.stance.assembly import new_figure
+from behaviours.stance.balance import find_balance, new_search
 from behaviours.stance.measures import Measures, measures
 from behaviours.stance.shape import shape
 from behaviours.stance.shape_sets import SETS
@@ -52,7 +54,9 @@ class Bar(NamedTuple):
 
 
 def make_cases(body: Body, count: int = CASES, seed: int = SEED) -> list[Case]:
-    """All sets in turn. Wrist targets lie in front and at the side of the shoulder of somebody standing straight, within an arm."""
+    """All sets in turn. Wrist targets lie in front and at the side of the shoulder of somebody standing straight,
+    within an arm.
+    """
     chance, names, cases = np.random.default_rng(seed), list(SETS), []
     standing = solve_shape(body, shape())
     for number in range(count):
@@ -116,7 +120,9 @@ def _error_bars(body: Body, solved: list[tuple[Case, StanceResult, Measures]]) -
     excess = max(m.limit_excess_rad for m in found)
     eased = sum(result.kept < 1.0 for _, result, _ in solved)
     missed = [result for _, result, _ in solved if result.wrist_error_m.max() > REACHED_M]
-    reached = [r.wrist_error_m.max() for _, r, _ in solved if any(r.plan.reaching) and r.wrist_error_m.max() <= REACHED_M]
+    reached = [
+        r.wrist_error_m.max() for _, r, _ in solved if any(r.plan.reaching) and r.wrist_error_m.max() <= REACHED_M
+    ]
     excuse = [(_nearest_miss_m(body, result), result.wrist_error_m.max()) for result in missed]
     unexcused = sum(best <= REACHED_M for best, _ in excuse)
     beyond_mm = 1e3 * max((ours - best for best, ours in excuse if best > REACHED_M), default=0.0)
@@ -152,7 +158,7 @@ def _solver_bars(results: list[StanceResult], seconds: list[float]) -> list[Bar]
     reaching = [k for k, result in enumerate(results) if any(result.plan.reaching)]
     searched = [result.outcome.cycles for result in results if result.outcome.cycles > 0]
     cycles, longest = float(np.median(searched)), max(searched)
-    one_ms, reach_ms = 1e3 * np.median(seconds), 1e3 * np.median([seconds[k] for k in reaching])
+    one_ms, reach_ms = 1e3 * float(np.median(seconds)), 1e3 * float(np.median([seconds[k] for k in reaching]))
     slowest_ms = 1e3 * np.quantile(seconds, 0.95)
     return [
         Bar("Brent cycles, median of those that search", cycles, "<= 5", cycles <= 5, f"most {longest}"),

@@ -18,9 +18,13 @@ def register(subparsers) -> None:
         description="Solves one stance. SET is a shape set or one of Alberts' words for a posture, such as hunched.",
         epilog="example: brace stance recoil-strong --intensity 0.8 --object 1.2,0.4,1.3 -o recoil.png",
     )
-    parser.add_argument("set", metavar="SET", nargs="?", help="a shape set, or a word such as hunched; `--list` shows all")
+    parser.add_argument(
+        "set", metavar="SET", nargs="?", help="a shape set, or a word such as hunched; `--list` shows all"
+    )
     parser.add_argument("--list", action="store_true", help="all shape sets with what they mean")
-    parser.add_argument("--intensity", type=float, default=1.0, metavar="X", help="how much of it; 1 is a full instance (1)")
+    parser.add_argument(
+        "--intensity", type=float, default=1.0, metavar="X", help="how much of it; 1 is a full instance (1)"
+    )
     parser.add_argument("--object", metavar="X,Y,Z", help="what it is about and looked at, metres: ahead, left, up")
     parser.add_argument("--reach-left", metavar="X,Y,Z", help="where the left wrist is to be")
     parser.add_argument("--reach-right", metavar="X,Y,Z", help="where the right wrist is to be")
@@ -28,7 +32,9 @@ def register(subparsers) -> None:
     parser.add_argument("--height", type=float, default=1.75, metavar="M", help="of the person, metres (1.75)")
     parser.add_argument("--sex", choices=("male", "female"), default="male", help="whose masses and proportions (male)")
     parser.add_argument("--json", action="store_true", help="the report for programs")
-    parser.add_argument("-o", "--output", metavar="FILE", help=".png: front and side; .mp4, .gif: from neutral and back")
+    parser.add_argument(
+        "-o", "--output", metavar="FILE", help=".png: front and side; .mp4, .gif: from neutral and back"
+    )
     parser.set_defaults(run=run)
 
 
@@ -38,7 +44,11 @@ def run(args: argparse.Namespace) -> None:
     from engine.core.errors import BadInput
 
     if args.list:
-        print("\n".join(f"{name:<20} {entry.low:+.0f} to {entry.high:+.0f}  {entry.meaning}" for name, entry in SETS.items()))
+        print(
+            "\n".join(
+                f"{name:<20} {entry.low:+.0f} to {entry.high:+.0f}  {entry.meaning}" for name, entry in SETS.items()
+            )
+        )
         return
     if args.set is None:
         raise BadInput("usage", "expected a SET (`brace stance --list` shows them)")

@@ -66,7 +66,8 @@ def test_the_list_names_every_set(capsys):
     [
         (["poster"], "posture"), ([], "expected a SET"), (["posture", "--object", "1,2"], "three numbers"),
         (["posture", "--object", "a,b,c"], "three numbers"), (["posture", "--intensity", "nan"], "finite"),
-        (["posture", "--height", "9"], "metres"), (["posture", "--width", "-1"], "metres"), (["posture", "-o", "x.jpg"], ".png"),
+        (["posture", "--height", "9"], "metres"), (["posture", "--width", "-1"], "metres"),
+        (["posture", "-o", "x.jpg"], ".png"),
     ],
 )  # fmt: skip
 def test_bad_input_is_one_line_and_code_2(capsys, words, found):

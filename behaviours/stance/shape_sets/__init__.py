@@ -1,7 +1,8 @@
 """The shape sets (section 6): a name, a number, and a procedure that makes a shape of them.
 
-To add one: copy a neighbour, give it a name in SETS. A procedure takes the intensity (1 is a full, clear instance; it may be
-negative and go past 1) and the surroundings (`around.Around`), and returns a `shape`. At intensity 0 it is neutral.
+To add one: copy a neighbour, give it a name in SETS. A procedure takes the intensity (1 is a full, clear instance; it
+may be negative and go past 1) and the surroundings (`around.Around`), and returns a `shape`. At intensity 0 it is
+neutral.
 """
 
 from __future__ import annotations
@@ -50,7 +51,8 @@ class Named(NamedTuple):
 
 
 def meaning_of(name: str, intensity: float = 1.0) -> Named:
-    """What a set's name, or one of Alberts' words for a posture, stands for; a word's own intensity is scaled by the given one.
+    """What a set's name, or one of Alberts' words for a posture, stands for; a word's own intensity is scaled by the
+    given one.
 
     BadInput for an unknown name lists all, nearest first.
     """

@@ -1,7 +1,7 @@
 """The beauty line (2.1, 7, figure 2): a large S of legs, torso and neck in the coronal plane, as in the Venus de Milo.
 
-The weight is on one straight leg and its hip out; the other knee is bent, which lets that hip drop; the torso curves back over the
-standing foot and the head against it. The sign chooses the bent knee: + the left one, - the right one.
+The weight is on one straight leg and its hip out; the other knee is bent, which lets that hip drop; the torso curves
+back over the standing foot and the head against it. The sign chooses the bent knee: + the left one, - the right one.
 """
 
 from __future__ import annotations

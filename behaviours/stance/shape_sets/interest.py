@@ -1,7 +1,7 @@
 """Interest (section 7, figure 6): two ways of leaning towards an object, wherever it stands.
 
-Eager: large S curves in both planes, the collars aligned and back, chest first. Curious: large C curves in both planes, the collars aligned
-and forward, head first.
+Eager: large S curves in both planes, the collars aligned and back, chest first. Curious: large C curves in both
+planes, the collars aligned and forward, head first.
 """
 
 from __future__ import annotations

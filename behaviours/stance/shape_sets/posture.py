@@ -1,7 +1,7 @@
 """Alberts' posture scale (section 7, figure 5), from hunched at -1 over relaxed at 0 to over-erect at +1.
 
-Below zero the whole body makes one large C forward, above it the spine alone a small S. The collars go forward and down below, back above.
-Knees are straight over most of the range and bend only towards the hunched end.
+Below zero the whole body makes one large C forward, above it the spine alone a small S. The collars go forward and
+down below, back above. Knees are straight over most of the range and bend only towards the hunched end.
 """
 
 from __future__ import annotations

@@ -1,6 +1,7 @@
 """Reaching (section 7, figure 1): four ways to the same target. They differ in their states, not only in numbers.
 
-Each works for one hand or both; with one, `hand` is the side it is on. Without a target they are stances like any other.
+Each works for one hand or both; with one, `hand` is the side it is on. Without a target they are stances like any
+other.
 """
 
 from __future__ import annotations
@@ -68,7 +69,9 @@ def eager(intensity: float, around: Around) -> Shape:
 
 
 def reluctant(intensity: float, around: Around) -> Shape:
-    """Only the hand goes: the back curls away, the weight stays behind, the elbow near the body, the head turned off."""
+    """Only the hand goes: the back curls away, the weight stays behind, the elbow near the body, the head turned
+    off.
+    """
     a, side = intensity, hand(around)
     return shape(
         sagittal_class=SMALL_C,

@@ -1,11 +1,13 @@
 """Recoil (section 7, figures 6 and 7): two ways of shrinking from an object, wherever it stands.
 
-They differ in structure, not only in degree. Mild: both planes one large C away from the object, the collars one rigid unit both ways, some
-weight shifted away, the pelvis turned. Strong: a large S sideways over a small C forward, the collars opposed in Y and drawn up
-together in Z, more shift, more turning.
+They differ in structure, not only in degree. Mild: both planes one large C away from the object, the collars one
+rigid unit both ways, some weight shifted away, the pelvis turned. Strong: a large S sideways over a small C forward,
+the collars opposed in Y and drawn up together in Z, more shift, more turning.
 """
 
 from __future__ import annotations
+
+from typing import Any
 
 from behaviours.stance.around import Around
 from behaviours.stance.shape import LEFT_FOOT, RIGHT_FOOT, Shape, shape
@@ -39,7 +41,7 @@ def strong(intensity: float, around: Around) -> Shape:
     a, ahead, side = intensity, around.ahead, around.side
     away = _sideways(around)
     over = 1.0 - around.low  # from something on the ground it draws itself up instead of curling over it
-    knees = {"knee_left_rad": 0.35 * over * abs(a)} if side > 0.0 else {"knee_right_rad": 0.35 * over * abs(a)}
+    knees: dict[str, Any] = {f"knee_{'left' if side > 0.0 else 'right'}_rad": 0.35 * over * abs(a)}
     return shape(
         coronal_class=LARGE_S,
         sagittal_class=SMALL_C,
@@ -57,8 +59,8 @@ def strong(intensity: float, around: Around) -> Shape:
         pelvis_x_rad=-0.12 * ahead * a,
         pelvis_y_rad=-0.42 * side * a,
         gaze=0.75 * min(abs(a), 1.0),
-        **knees,
         **_arms(around, a),
+        **knees,
     )
 
 
@@ -71,7 +73,7 @@ def _standing_on(side: float) -> str:
     return LEFT_FOOT if side >= 0.0 else RIGHT_FOOT
 
 
-def _arms(around: Around, a: float) -> dict[str, float]:
+def _arms(around: Around, a: float) -> dict[str, Any]:
     """The near hand comes up between body and object, the far one is drawn along behind."""
     near, far = ("left", "right") if around.side > 0.0 else ("right", "left")
     return {

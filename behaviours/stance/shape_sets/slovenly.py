@@ -1,4 +1,6 @@
-"""A slovenly stance (section 7): the pelvis thrust forward, the back hanging behind it, the chest sunk, the head put out."""
+"""A slovenly stance (section 7): the pelvis thrust forward, the back hanging behind it, the chest sunk, the head put
+out.
+"""
 
 from __future__ import annotations
 

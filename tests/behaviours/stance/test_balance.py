@@ -20,7 +20,8 @@ shares = st.floats(-0.8, 0.8).map(lambda x: round(x, 6))
 @given(shares, shares, shares, st.sampled_from(("left", "right")))
 def test_the_search_meets_the_place_whichever_foot_is_dominant(body, x, z, twist, dominant):
     result = solve_shape(
-        body, shape(balance_x=0.8 * x, balance_z=0.7 * z, pelvis_y_rad=0.4 * twist, knee_left_rad=0.3, dominant=dominant)
+        body,
+        shape(balance_x=0.8 * x, balance_z=0.7 * z, pelvis_y_rad=0.4 * twist, knee_left_rad=0.3, dominant=dominant),
     )
     com = kinematics.com_of(body, result.pose)
     assert np.hypot(*(com[:2] - result.plan.balance_m)) < 1e-5
@@ -41,7 +42,9 @@ def test_a_place_in_the_world_can_be_given(body):
 
 
 def test_one_step_of_settling_comes_close(body):
-    """Inside an evaluation only the pelvis is solved anew: shoulders go where a full search takes them, to a millimetre."""
+    """Inside an evaluation only the pelvis is solved anew: shoulders go where a full search takes them, to a
+    millimetre.
+    """
     plan = plan_of(body, shape(sagittal_class="LargeC"), footprints.stand(body))
     search, figure, unknowns = balance.new_search(plan.lower), new_figure(), np.zeros(6)
     balance.find_balance(body, plan, unknowns, search, figure)
@@ -55,7 +58,9 @@ def test_one_step_of_settling_comes_close(body):
 
 @pytest.mark.parametrize("root", [0, 1])
 def test_feedback_takes_an_error_out_and_keeps_it_out(body, root):
-    """Disturbed by 3 cm of wanted place, within a second the error is a hundredth of that; each foot in turn dominant."""
+    """Disturbed by 3 cm of wanted place, within a second the error is a hundredth of that; each foot in turn
+    dominant.
+    """
     dominant = ("left", "right")[root]
     feet = footprints.stand(body)
     plan = plan_of(body, shape(dominant=dominant, knee_left_rad=0.2, knee_right_rad=0.2), feet)

@@ -1,5 +1,7 @@
 """Gaze: full weight looks there, none leaves the head alone, limits and what is behind are respected."""
 
+from itertools import pairwise
+
 import numpy as np
 import pytest
 from hypothesis import given, settings
@@ -57,7 +59,7 @@ def test_what_is_straight_behind_turns_the_head_neither_way(body):
 
 def test_walking_round_behind_never_jerks_the_head(body, turned_deg):
     poses = [looking(body, yaw, 0.0, 1.0).pose.rotations for yaw in np.linspace(0.0, 2 * np.pi, 181)]
-    assert max(turned_deg(a, b).max() for a, b in zip(poses[:-1], poses[1:], strict=True)) < 12
+    assert max(turned_deg(a, b).max() for a, b in pairwise(poses)) < 12
 
 
 def test_beyond_the_neck_it_turns_as_far_as_it_goes_and_says_by_how_much_it_fails(body):

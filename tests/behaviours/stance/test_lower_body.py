@@ -17,13 +17,18 @@ knees = st.floats(0.05, 1.4).map(lambda x: round(x, 6))
 @st.composite
 def asks(draw, exact_pelvis=False):
     """(LowerBody of a body still to come as keyword arguments, balance offsets)"""
-    feet = dict(
-        width_m=0.3 + 0.4 * draw(angles), ahead_m=0.5 * draw(angles), heading_rad=6.0 * draw(angles), place_m=(draw(angles), draw(angles)),
-    )  # fmt: skip
-    wanted = dict(
-        root=draw(st.integers(0, 1)), knee_rad=np.array([draw(knees), draw(knees)]),
-        pelvis_rad=np.array([draw(angles), draw(angles), 0.4 * draw(angles)]), pelvis_exact=exact_pelvis,
-    )  # fmt: skip
+    feet = {
+        "width_m": 0.3 + 0.4 * draw(angles),
+        "ahead_m": 0.5 * draw(angles),
+        "heading_rad": 6.0 * draw(angles),
+        "place_m": (draw(angles), draw(angles)),
+    }
+    wanted = {
+        "root": draw(st.integers(0, 1)),
+        "knee_rad": np.array([draw(knees), draw(knees)]),
+        "pelvis_rad": np.array([draw(angles), draw(angles), 0.4 * draw(angles)]),
+        "pelvis_exact": exact_pelvis,
+    }
     return feet, wanted, (0.3 * draw(angles), 0.3 * draw(angles))
 
 
@@ -92,7 +97,9 @@ def test_the_free_hip_is_the_circles_nearest_point(body, case):
 
 @given(asks())
 def test_extending_the_hip_vector_to_the_plane_leads_to_the_same_point(body, case):
-    """The paper's first way: intersect, then move to the nearest point of the circle. Where the vector meets the plane at all."""
+    """The paper's first way: intersect, then move to the nearest point of the circle. Where the vector meets the
+    plane at all.
+    """
     asked, _, positions, _ = solved(body, case)
     root_hip, foot = positions[HIPS[asked.root]], asked.ankle_m[1 - asked.root]
     if not reachable(asked, positions):
@@ -112,7 +119,7 @@ def test_extending_the_hip_vector_to_the_plane_leads_to_the_same_point(body, cas
 
 @given(asks(exact_pelvis=True))
 def test_the_other_trade_off_keeps_the_pelvis_and_lets_the_free_knee_give(body, case):
-    asked, _, positions, orientations = solved(body, case)
+    asked, _, positions, _ = solved(body, case)
     free = 1 - asked.root
     wanted = positions[HIPS[asked.root]] + asked.hip_width_m * asked.hip_vector
     if np.linalg.norm(wanted - asked.ankle_m[free]) <= asked.leg_m[free]:
@@ -128,7 +135,7 @@ def test_the_other_trade_off_keeps_the_pelvis_and_lets_the_free_knee_give(body, 
 @given(asks())
 def test_knees_point_over_the_toes(body, case):
     """Hip, knee, ankle and the foot's direction lie in one plane, the knee on the side of the toes."""
-    asked, _, positions, orientations = solved(body, case)
+    _, _, positions, orientations = solved(body, case)
     for side in range(2):
         hip, knee, ankle = (positions[j[side]] for j in (HIPS, KNEES, ANKLES))
         toes = np.array(quaternion.rotate(orientations[ANKLES[side]], (1.0, 0.0, 0.0)))
@@ -141,10 +148,11 @@ def test_knees_point_over_the_toes(body, case):
 
 
 def test_pelvis_x_tips_forward_about_the_hips(body):
-    still, tipped = (
-        solved(body, ({}, dict(root=0, knee_rad=np.full(2, 0.3), pelvis_rad=np.array([x, 0.0, 0.0]), pelvis_exact=False), (0, 0)))
-        for x in (0.0, 0.2)
-    )  # fmt: skip
+    def with_x(x):
+        wanted = {"root": 0, "knee_rad": np.full(2, 0.3), "pelvis_rad": np.array([x, 0.0, 0.0]), "pelvis_exact": False}
+        return solved(body, ({}, wanted, (0.0, 0.0)))
+
+    still, tipped = with_x(0.0), with_x(0.2)
     assert quaternion.angle_between(still[3][PELVIS], tipped[3][PELVIS]) == pytest.approx(0.2)
     up = quaternion.rotate(tipped[3][PELVIS], (0.0, 0.0, 1.0))
     assert up[0] == pytest.approx(np.sin(0.2), abs=1e-9)
@@ -152,7 +160,9 @@ def test_pelvis_x_tips_forward_about_the_hips(body):
 
 
 def test_a_foot_out_of_reach_is_reached_for(body):
-    """Unreachable input: nothing breaks, the leg is straight towards the foot, and kinematics shows by how much it misses."""
+    """Unreachable input: nothing breaks, the leg is straight towards the foot, and kinematics shows by how much it
+    misses.
+    """
     feet = footprints.stand(body, width_m=2.4)
     asked = lower_body.ask(body, *feet, 0, np.full(2, 0.1), np.zeros(3), False)
     root_m, rotations = np.zeros(3), np.tile([1.0, 0.0, 0.0, 0.0], (JOINT_COUNT, 1))
@@ -174,6 +184,8 @@ def test_rising_on_the_toes_leaves_ball_and_toes_where_they_are(body):
             toe = body.offset_m[TOES[side]]
             balls = [f.ankle_m[side] + quaternion.rotate(f.foot_turned[side], toe) for f in (before, after)]
             assert balls[0] == pytest.approx(balls[1], abs=1e-12)
-            toes = [quaternion.multiply(f.foot_turned[side], quaternion.about_y(-f.toe_rad[side])) for f in (before, after)]
+            toes = [
+                quaternion.multiply(f.foot_turned[side], quaternion.about_y(-f.toe_rad[side])) for f in (before, after)
+            ]
             assert quaternion.angle_between(*toes) < 1e-7
             assert after.ankle_m[side, 2] > before.ankle_m[side, 2] + 0.01

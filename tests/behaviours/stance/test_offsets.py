@@ -1,4 +1,6 @@
-"""A stance under a clip's pose: turns against neutral, limits with the clip's own excess, nothing where nothing is asked."""
+"""A stance under a clip's pose: turns against neutral, limits with the clip's own excess, nothing where nothing is
+asked.
+"""
 
 import numpy as np
 import pytest

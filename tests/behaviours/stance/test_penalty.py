@@ -42,7 +42,11 @@ def test_smooth_where_the_pieces_meet(row, way):
         step = 1e-6
         values = [penalty.penalty_of(row, row[0] + way * (place + k * step)) for k in (-1, 0, 1)]
         curvature = (values[2] - 2.0 * values[1] + values[0]) / step**2
-        steepest = max(row[2] / row[1] ** 2, row[6] / row[5] ** 2, *((row[k + 3] - row[k + 1]) / (row[k + 2] - row[k]) ** 2 for k in (1, 5)))
+        steepest = max(
+            row[2] / row[1] ** 2,
+            row[6] / row[5] ** 2,
+            *((row[k + 3] - row[k + 1]) / (row[k + 2] - row[k]) ** 2 for k in (1, 5)),
+        )
         assert abs(curvature) < 20.0 * steepest + 1.0  # a kink would be a thousand times that
 
 

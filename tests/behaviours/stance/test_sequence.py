@@ -24,7 +24,9 @@ def test_crouch_twist_and_shift_leave_the_feet_where_they_are(body, width_m):
     frames = list(sequence.frames(body, start, moves))
     ankles = np.array([f.joints_m[list(ANKLES)] for f in frames])
     assert np.abs(ankles - start.feet.ankle_m).max() < 1e-7
-    turned = [quaternion.angle_between(f.orientations[ANKLES[s]], start.feet.foot_turned[s]) for f in frames for s in (0, 1)]
+    turned = [
+        quaternion.angle_between(f.orientations[ANKLES[s]], start.feet.foot_turned[s]) for f in frames for s in (0, 1)
+    ]
     assert max(turned) < 1e-6
     pelvis = np.array([f.joints_m[PELVIS] for f in frames])
     assert np.ptp(pelvis[:, 2]) > 0.1  # it did crouch
@@ -91,9 +93,18 @@ def test_heels_rise_about_the_balls(body):
 
 
 def test_pelvis_angles_are_what_the_lower_body_was_asked_for(body):
-    wanted = shape(pelvis_x_rad=0.2, pelvis_y_rad=-0.3, pelvis_z_rad=0.1, trade_off="pelvis_exact", knee_left_rad=0.5, knee_right_rad=0.5)
+    wanted = shape(
+        pelvis_x_rad=0.2,
+        pelvis_y_rad=-0.3,
+        pelvis_z_rad=0.1,
+        trade_off="pelvis_exact",
+        knee_left_rad=0.5,
+        knee_right_rad=0.5,
+    )
     result = solve_shape(body, wanted)
     held = sequence.held(body, result)
     assert held.pelvis_rad == pytest.approx([0.2, -0.3, 0.1], abs=1e-6)
-    offsets = sequence.offsets_of(result.feet, result.plan.lower.root, result.joints_m[(13, 17)[result.plan.lower.root]])
+    offsets = sequence.offsets_of(
+        result.feet, result.plan.lower.root, result.joints_m[(13, 17)[result.plan.lower.root]]
+    )
     assert offsets == pytest.approx(result.balance_rad, abs=1e-6)

@@ -14,7 +14,9 @@ from engine.core.random import Stream
 @pytest.mark.parametrize("collars", ALLOWED["collar_y"])
 def test_zeros_are_neutral_for_any_state_set(body, sagittal, collars):
     neutral = solve_shape(body, shape())
-    result = solve_shape(body, shape(sagittal_class=sagittal, coronal_class=sagittal, collar_y=collars, collar_z=collars))
+    result = solve_shape(
+        body, shape(sagittal_class=sagittal, coronal_class=sagittal, collar_y=collars, collar_z=collars)
+    )
     assert result.joints_m == pytest.approx(neutral.joints_m, abs=1e-9)
 
 
@@ -31,7 +33,9 @@ def test_every_number_has_a_range_and_a_meaning():
     assert all(r.low <= 0.0 <= r.high and r.low < r.high and r.meaning for r in RANGES.values())
 
 
-@pytest.mark.parametrize("bad", [{"sagital": 1.0}, {"sagittal_class": "LargeX"}, {"sagittal": float("nan")}, {"wishes": {"x": None}}])
+@pytest.mark.parametrize(
+    "bad", [{"sagital": 1.0}, {"sagittal_class": "LargeX"}, {"sagittal": float("nan")}, {"wishes": {"x": None}}]
+)
 def test_bad_shapes_are_refused_by_name(bad):
     with pytest.raises(BadInput) as trouble:
         shape(**bad)
@@ -70,8 +74,9 @@ def test_a_wind_up_goes_the_other_way(body):
 
 def test_a_mirrored_shape_is_the_mirrored_pose(body):
     base = shape(
-        sagittal_class="SmallC", coronal_class="LargeS", collar_y="opposed", dominant="right", sagittal=0.8, coronal=1.4,
-        transverse_rad=0.3, collar_y_rad=0.2, collar_z_rad=0.1, balance_x=-0.4, knee_left_rad=0.5, pelvis_y_rad=0.2,
+        sagittal_class="SmallC", coronal_class="LargeS", collar_y="opposed", dominant="right", sagittal=0.8,
+        coronal=1.4, transverse_rad=0.3, collar_y_rad=0.2, collar_z_rad=0.1, balance_x=-0.4, knee_left_rad=0.5,
+        pelvis_y_rad=0.2,
         arm_out_left_rad=0.3, elbow_right_rad=0.5, arm_turn_left_rad=0.2,
     )  # fmt: skip
     ours, theirs = solve_shape(body, base), solve_shape(body, mirrored(base))

@@ -1,5 +1,7 @@
 """The shape sets: what the paper says of each, what any animator would refuse, and no jumps."""
 
+from itertools import pairwise
+
 import numpy as np
 import pytest
 
@@ -58,8 +60,23 @@ PAIRS = [
     (f"{side}_{part}", other)
     for side, across in (("left", "right"), ("right", "left"))
     for part in ("forearm", "hand")
-    for other in ("pelvis", "belly", "chest", "upper_chest", "neck", "head", f"{side}_thigh", f"{across}_thigh", f"{across}_forearm")
-] + [("left_shank", "right_shank"), ("left_foot", "right_foot"), ("left_thigh", "right_thigh"), ("left_thigh", "right_shank")]
+    for other in (
+        "pelvis",
+        "belly",
+        "chest",
+        "upper_chest",
+        "neck",
+        "head",
+        f"{side}_thigh",
+        f"{across}_thigh",
+        f"{across}_forearm",
+    )
+] + [
+    ("left_shank", "right_shank"),
+    ("left_foot", "right_foot"),
+    ("left_thigh", "right_thigh"),
+    ("left_thigh", "right_shank"),
+]
 
 
 def gap_m(a, b, radius_a, radius_b):
@@ -87,7 +104,7 @@ def test_no_joint_jumps_as_intensity_goes_up(body, name, turned_deg):
     grid = np.arange(entry.low, entry.high + 0.005, 0.01)
     for place in OBJECTS[::2] if entry.needs_object else (None,):
         poses = [solve_stance(body, name, a, object_m=place).pose.rotations for a in grid]
-        assert max(turned_deg(a, b).max() for a, b in zip(poses[:-1], poses[1:], strict=True)) < 2.0
+        assert max(turned_deg(a, b).max() for a, b in pairwise(poses)) < 2.0
 
 
 @pytest.mark.parametrize("name", [n for n in NAMES if SETS[n].needs_object])
@@ -125,10 +142,25 @@ def test_recoil_strong_shifts_and_twists_more_than_mild(body):
 
 
 STATES = {
-    "recoil-mild": dict(coronal_class="LargeC", sagittal_class="LargeC", collar_y="opposed", collar_z="opposed"),
-    "recoil-strong": dict(coronal_class="LargeS", sagittal_class="SmallC", collar_y="opposed", collar_z="aligned"),
-    "interest": dict(coronal_class="LargeS", sagittal_class="LargeS", collar_y="aligned", collar_z="aligned"),
-    "interest-curious": dict(coronal_class="LargeC", sagittal_class="LargeC", collar_y="aligned", collar_z="aligned"),
+    "recoil-mild": {
+        "coronal_class": "LargeC",
+        "sagittal_class": "LargeC",
+        "collar_y": "opposed",
+        "collar_z": "opposed",
+    },
+    "recoil-strong": {
+        "coronal_class": "LargeS",
+        "sagittal_class": "SmallC",
+        "collar_y": "opposed",
+        "collar_z": "aligned",
+    },
+    "interest": {"coronal_class": "LargeS", "sagittal_class": "LargeS", "collar_y": "aligned", "collar_z": "aligned"},
+    "interest-curious": {
+        "coronal_class": "LargeC",
+        "sagittal_class": "LargeC",
+        "collar_y": "aligned",
+        "collar_z": "aligned",
+    },
 }
 
 
@@ -203,7 +235,9 @@ def test_straight_spine_bends_at_the_abdomen_alone(body):
     for intensity in (-1.0, 1.0):
         q = solve_stance(body, "straight-spine", intensity).pose.rotations
         assert q[[BACK, NECK, HEAD], 0] == pytest.approx(1.0, abs=1e-9)
-    bows = [quaternion.rotate(solve_stance(body, "straight-spine", a).orientations[BACK], (0, 0, 1))[0] for a in (-1, 0, 1)]
+    bows = [
+        quaternion.rotate(solve_stance(body, "straight-spine", a).orientations[BACK], (0, 0, 1))[0] for a in (-1, 0, 1)
+    ]
     assert bows[0] < bows[1] < bows[2]
 
 

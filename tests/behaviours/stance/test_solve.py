@@ -18,7 +18,10 @@ def test_any_body_stands_on_its_feet(someone, name):
     height, sex = someone
     body = standard_body(height, sex=sex)
     scale = height / 1.75
-    points = {"object_m": (1.2 * scale, 0.4 * scale, 1.2 * scale), "reach_right_m": (0.45 * scale, -0.2 * scale, 1.2 * scale)}
+    points = {
+        "object_m": (1.2 * scale, 0.4 * scale, 1.2 * scale),
+        "reach_right_m": (0.45 * scale, -0.2 * scale, 1.2 * scale),
+    }
     result = solve_stance(body, name, 0.9, **points)
     found = measures(body, result)
     assert found.foot_error_m.max() < 1e-7
@@ -55,7 +58,9 @@ def test_the_mirrored_reach(body):
 
 def test_legs_keep_their_limits_by_taking_less_of_the_wish(body):
     """A crouch with a twist that no hip allows: as much of it as they do, reported."""
-    result = solve_shape(body, shape(knee_left_rad=1.9, knee_right_rad=0.1, pelvis_y_rad=0.7, balance_x=1.2, balance_z=1.0))
+    result = solve_shape(
+        body, shape(knee_left_rad=1.9, knee_right_rad=0.1, pelvis_y_rad=0.7, balance_x=1.2, balance_z=1.0)
+    )
     found = measures(body, result)
     assert 0.0 < result.kept < 1.0
     assert found.limit_excess_rad < 1e-9

@@ -7,11 +7,11 @@ from hypothesis import strategies as st
 from scipy.optimize import lsq_linear
 
 from behaviours.stance import penalty, solver, torso, yielding
+from behaviours.stance.footprints import stand
 from behaviours.stance.measures import measures, penalties
 from behaviours.stance.penalty import Side
 from behaviours.stance.shape import WISHES, evenly, shape
 from behaviours.stance.solve import Place, plan_of, solve_shape, solve_stance, wishes_of
-from behaviours.stance.footprints import stand
 from demos.benchmarks import plain_stance
 from engine.body.skeleton import HEAD, SHOULDERS, WRISTS
 
@@ -56,7 +56,9 @@ def test_the_objective_is_the_weighted_sum_of_its_terms(body):
     terms = penalties(result)
     wishes = result.wishes
     away = np.linalg.norm(result.joints_m[SHOULDERS[0]] - FAR)
-    by_hand = [w * penalty.penalty_of(row, u) for w, row, u in zip(wishes.weight, wishes.wanted, result.unknowns, strict=True)]
+    by_hand = [
+        w * penalty.penalty_of(row, u) for w, row, u in zip(wishes.weight, wishes.wanted, result.unknowns, strict=True)
+    ]
     assert list(terms.values())[:6] == pytest.approx(by_hand)
     assert terms["reach_left"] == pytest.approx(penalty.penalty_of(wishes.reach[0], away))
 
@@ -116,7 +118,10 @@ def test_a_further_place_in_the_world_draws_the_head(body):
 @settings(max_examples=30)
 @given(st.lists(st.floats(-1.5, 1.5).map(lambda x: round(x, 6)), min_size=6, max_size=6), st.integers(0, 2))
 def test_every_solve_ends_in_balance_and_within_limits(body, at, hands):
-    targets = [(0.4 + 0.3 * at[0], 0.3 + 0.4 * at[1], 1.2 + 0.5 * at[2]), (0.4 + 0.3 * at[3], -0.3 + 0.4 * at[4], 1.2 + 0.5 * at[5])]
+    targets = [
+        (0.4 + 0.3 * at[0], 0.3 + 0.4 * at[1], 1.2 + 0.5 * at[2]),
+        (0.4 + 0.3 * at[3], -0.3 + 0.4 * at[4], 1.2 + 0.5 * at[5]),
+    ]
     reach = (targets[0] if hands != 1 else None, targets[1] if hands != 0 else None)
     result = solve_shape(body, shape(sagittal_class="LargeS", coronal_class="SmallC", sagittal=0.5), reach_m=reach)
     found = measures(body, result)
