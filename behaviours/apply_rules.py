@@ -11,7 +11,7 @@ from __future__ import annotations
 import numpy as np
 from numba import njit
 
-from behaviours.guard import clamp, guard, reset
+from behaviours.guard import clamp, guard, guard_freely, reset
 from behaviours.limb_freedom import free_leg
 from behaviours.rules import lean, turn
 from behaviours.rules.controls import LEAN, REACH_LEFT, RECOIL, SWIVEL_LEFT, TURN
@@ -24,16 +24,19 @@ from engine.maths import quaternion, vector
 def apply_rules(task, pelvis_shift, controls, soft_m, posed):
     """Writes the pose that seven controls (7,) and a shift of the pelvis (3,) give. soft_m: see two_bones.soft_reach."""
     posed.made_from[:] = np.nan
-    update_pose(task, pelvis_shift, controls, soft_m, posed)
+    update_pose(task, pelvis_shift, controls, soft_m, True, posed)
     posed.made_from[:] = np.nan
 
 
 @njit(cache=True, forceinline=True)
-def update_pose(task, pelvis_shift, controls, soft_m, posed):
+def update_pose(task, pelvis_shift, controls, soft_m, free_arms, posed):
     """apply_rules for a search: what is made from the same numbers as last time is not made again.
 
     Trunk and legs are made from the pelvis's shift, lean and turn; an arm from those, the recoil and its own reach and
     swivel. So a difference in one arm's control costs one arm. `posed` remembers, and so belongs to one task.
+
+    Without `free_arms` the elbows stay at their swivels, whatever shoulders and trunk forbid: an elbow that swings aside as
+    far as it must moves the COM by millimetres, but with kinks that a search would be caught in.
     """
     bones, start, feet, build = task.bones, task.start, task.feet, task.build
     low_rad, high_rad, margin_rad = start.low_rad, start.high_rad, task.rules.limit_margin_rad
@@ -62,10 +65,18 @@ def update_pose(task, pelvis_shift, controls, soft_m, posed):
         reach, swivel = controls[REACH_LEFT + side], controls[SWIVEL_LEFT + side]
         same_arm = _remember(made_from, 1 + side, (controls[RECOIL], reach, swivel, 0.0, 0.0, 0.0))
         if not (same_trunk and same_arm):
-            palm, posed.trouble[2 + side] = guard(
-                side, controls[RECOIL], reach, swivel, build, task.threat, task.choices, task.rules,
-                bones.offset_m, start.rotations, low_rad, high_rad, posed.obstacles, rotations, positions, orientations,
-            )  # fmt: skip
+            if free_arms:
+                palm, wrong = guard_freely(
+                    side, controls[RECOIL], reach, swivel, build, task.threat, task.choices, task.rules, bones.offset_m,
+                    start.rotations, low_rad, high_rad, posed.obstacles, rotations, positions, orientations,
+                )  # fmt: skip
+            else:
+                palm, wrong = guard(
+                    side, controls[RECOIL], reach, swivel, False, 0.0, build, task.threat, task.choices, task.rules,
+                    bones.offset_m, start.rotations, low_rad, high_rad, posed.obstacles, rotations, positions,
+                    orientations,
+                )  # fmt: skip
+            posed.trouble[2 + side] = wrong
             vector.put(posed.palms, side, palm)
 
 

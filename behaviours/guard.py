@@ -20,6 +20,7 @@ from engine.body.two_bones import SOFT_REACH_M, soft_reach
 from engine.maths import quaternion, vector
 from engine.maths.shapes import distance_to_segment, outwards
 
+SLIDE_M, SLIDES, SLIDE_HALVINGS = 0.02, 8, 6  # how a palm looks for room farther out on its line
 SAME_TURN_RAD = 1e-6  # a hand that got the turn it wanted needs no second look
 
 
@@ -39,10 +40,14 @@ def clamp(low_rad, high_rad, rotations, j):
 
 @njit(cache=True)
 def guard(
-    side, recoil_control, reach_control, swivel_control, build, threat, choices, rules,
+    side, recoil_control, reach_control, swivel_control, free, slide_m, build, threat, choices, rules,
     offset_m, start_rotations, low_rad, high_rad, obstacles, rotations, positions, orientations,
 ):  # fmt: skip
-    """Recoil and block of one side, in place. Returns (the palm's centre, world; what is still forbidden, radians)."""
+    """Recoil and block of one side, in place. Returns (the palm's centre, world; what is still forbidden, radians).
+
+    free: whether the elbow swings aside where shoulder or trunk forbid its swivel; slide_m: how much farther out on the
+    line of approach the palm goes than its reach asks for.
+    """
     clavicle, shoulder, wrist = CLAVICLES[side], SHOULDERS[side], WRISTS[side]
     back = clavicle - clavicle + BACK  # a number like any other: a constant would compile a variant of its own
     reset(start_rotations, rotations, clavicle, clavicle)
@@ -53,21 +58,55 @@ def guard(
     palm, hand, swivel = guard_goal(
         side, reach_control, swivel_control, build, threat, choices, rules, positions, orientations
     )
+    palm = vector.along(palm, threat.tangent, -slide_m * (1.0 - choices.wrap))
     palm = clear_of_trunk(palm, build.hand_radius_m, obstacles, build.obstacle_radius_m, rules.block.soften_m)
     turned, wrong = hand, 0.0
     for _ in range(2):
         # a hand stopped by its limits holds its palm elsewhere: the arm follows once
         at = vector.subtract(palm, quaternion.rotate(turned, build.palm_m[side]))
         bend_arm(side, at, swivel, build.elbow_rad[side], offset_m, rotations, positions, orientations)
-        wrong = free_arm(
-            side, offset_m, low_rad, high_rad, rules.limit_margin_rad, build.arm_radius_m[side],
-            obstacles, build.obstacle_radius_m, rotations, positions, orientations,
-        )  # fmt: skip
+        if free:
+            wrong = free_arm(
+                side, offset_m, low_rad, high_rad, rules.limit_margin_rad, build.arm_radius_m[side],
+                obstacles, build.obstacle_radius_m, rotations, positions, orientations,
+            )  # fmt: skip
         turn_hand(side, hand, offset_m, low_rad, high_rad, rotations, positions, orientations)
         turned = quaternion.at(orientations, wrist)
         if quaternion.angle_between(turned, hand) < SAME_TURN_RAD:
             break
     return vector.add(vector.at(positions, wrist), quaternion.rotate(turned, build.palm_m[side])), wrong
+
+
+@njit(cache=True)
+def guard_freely(
+    side, recoil_control, reach_control, swivel_control, build, threat, choices, rules,
+    offset_m, start_rotations, low_rad, high_rad, obstacles, rotations, positions, orientations,
+):  # fmt: skip
+    """guard, and where no swivel frees the arm, the palm slides out along the line, towards the threat, until one does.
+
+    To the nearest such place, by halving; where there is none within SLIDES steps, the palm stays at its reach.
+    """
+    near_m = far_m = slide_m = 0.0
+    halvings = SLIDE_HALVINGS
+    for step in range(SLIDES + SLIDE_HALVINGS + 1):
+        palm, wrong = guard(
+            side, recoil_control, reach_control, swivel_control, True, slide_m, build, threat, choices, rules,
+            offset_m, start_rotations, low_rad, high_rad, obstacles, rotations, positions, orientations,
+        )  # fmt: skip
+        if step == 0 and (wrong == 0.0 or choices.wrap >= 0.5):
+            break
+        if wrong == 0.0:
+            far_m = slide_m
+            if halvings == 0:
+                break
+        else:
+            near_m = slide_m
+        if far_m == 0.0:  # still looking for a free place
+            slide_m = near_m + SLIDE_M if step < SLIDES else 0.0
+        else:
+            halvings -= 1
+            slide_m = 0.5 * (near_m + far_m) if halvings > 0 else far_m
+    return palm, wrong
 
 
 @njit(cache=True)

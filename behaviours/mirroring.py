@@ -116,9 +116,10 @@ def mirror_task(task: Task) -> Task:
 
 def mirror_reference(reference: Reference) -> Reference:
     """The mirrored reference of the total error."""
-    x, y = reference.com_wanted_m
+    rules, wanted = reference.com_rules_m, reference.com_wanted_m
     return reference._replace(
-        com_wanted_m=(x, -y),
+        com_rules_m=(rules[0], -rules[1]),
+        com_wanted_m=(wanted[0], -wanted[1]),
         palms=reference.palms[SWAPPED] * FLIP_POINT,
         trunk=reference.trunk * FLIP_ROTATION,
         controls=mirror_controls(reference.controls),

@@ -10,10 +10,11 @@ import numpy as np
 from numba import njit
 
 from behaviours.task import FeetPlan
-from engine.body.footing import leg_length_m, nearest_footing
+from engine.body.footing import leg_length_m, nearest_footing, sole_depth_m
 from engine.body.skeleton import ANKLES, HIPS, TOES, Body
 from engine.maths import quaternion, vector
 
+CLEAR_M = 0.01  # of reach to spare, so that the foot need not stand exactly under its hip
 PULLS = 60  # averaged projections: two legs that both fall short agree to a fraction of a millimetre
 
 
@@ -48,6 +49,21 @@ def stand_where_planted(planted, positions, orientations, rotations) -> FeetPlan
     return FeetPlan(
         positions[ankles].copy(), orientations[ankles].copy(), rotations[toes].copy(), np.array(planted, bool), np.zeros(2)
     )
+
+
+def lowering_m(body: Body, feet: FeetPlan, hips_m, leg_share: float, most_m: float) -> float:
+    """How far the pelvis has to go down for a foot in the air to reach the ground under its hip; 0 if that is too far.
+
+    Hips (2, 3) of the rules pose. On a stretched standing leg the other hip is about as high: it is worth a bent knee.
+    """
+    needed_m = 0.0
+    for side in range(2):
+        if not feet.held[side]:
+            reach_m = leg_share * leg_length_m(body, side) - CLEAR_M
+            short_m = float(hips_m[side][2]) - sole_depth_m(body, side) - reach_m
+            if short_m <= most_m:
+                needed_m = max(needed_m, short_m)
+    return needed_m
 
 
 def set_down(body: Body, feet: FeetPlan, hips_m, ahead_positions, ahead_orientations, leg_share: float) -> FeetPlan:

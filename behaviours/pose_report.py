@@ -26,7 +26,7 @@ from engine.clips.playback import planted_at, sample
 from engine.maths import quaternion, vector
 
 AIM_PASSES = 3  # the aim depends on the lean, the lean on the direction of travel, that on the aim
-REPORTED_ERRORS = ("balance", "hands", "torso", "pelvis_height", "feet", "controls", "limits", "arms", "total")
+REPORTED_ERRORS = ("balance", "hands", "torso", "pelvis_height", "feet", "controls", "limits", "total")
 
 
 class PoseCase(NamedTuple):

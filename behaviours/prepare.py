@@ -110,6 +110,10 @@ def _prepare(
     go_ahead(task, controls, way, leg_share, settings.balance.brace_m, posed)
     place_hips(task, controls, posed)
     if feet.held.any():
+        balance = settings.balance
+        lower_m = plant.lowering_m(body, feet, posed.positions[list(HIPS)], leg_share, balance.lower_for_foot_m)
+        task.start.root_m[2] -= lower_m
+        place_hips(task, controls, posed)
         feet = plant.set_down(body, feet, posed.positions[list(HIPS)], ahead_positions, ahead_orientations, leg_share)
     task = task._replace(feet=feet._replace(step_m=plant.steps_m(feet, now_positions)))
     return task._replace(choices=choose_guard(task, posed))

@@ -9,7 +9,7 @@ import numpy as np
 from numba import njit
 
 from behaviours import minimise
-from behaviours.apply_rules import apply_rules
+from behaviours.apply_rules import apply_rules, update_pose
 from behaviours.guard import stop_shoulder
 from behaviours.mirroring import (
     mirror_choices,
@@ -21,7 +21,7 @@ from behaviours.mirroring import (
 )
 from behaviours.perceived import PerceivedThreat
 from behaviours.prepare import prepare
-from behaviours.rules.controls import CONTROL_COUNT, controls_from_threat
+from behaviours.rules.controls import controls_from_threat
 from behaviours.settings import Settings
 from behaviours.solve_pose import Solution, solve_bfgs, solve_least_squares
 from behaviours.task import Choices, FeetPlan, Posed, Task, new_posed
@@ -30,7 +30,7 @@ from behaviours.total_error import (
     RESIDUALS,
     TERMS,
     Reference,
-    residuals_into,
+    measure_into,
     term_errors,
     total_error,
 )
@@ -43,6 +43,8 @@ from engine.maths import quaternion, vector
 
 EXACT = 0.0  # leg reach without the soft end: for poses that are shown
 DEARER = (5.0, 25.0, 125.0)  # rounds of making limits cost more, where legs still overstep them
+BRACED_STARTS = ((0.0, 0.04), (1.0, 0.05))  # shares of the way that the COM has to go; metres down
+ARMS_MATTER_M = 5e-4  # of COM, when elbows swing aside
 LOWERINGS = 20  # each closes what is missing but for the leg's slant
 
 
@@ -117,13 +119,14 @@ def _solve_protection(body: Body, task: Task, settings: Settings) -> Protection:
     # the rules pose is the start: what it took to plant its feet exactly belongs to it
     task = task._replace(start=task.start._replace(root_m=task.start.root_m + rules_shift))
     rules, com_rules = _pose_of(posed), np.array(centre_of_mass(task.bones, posed.positions, posed.orientations))
-    reference = refer_to(task, posed, com_rules, controls, settings)
     support_rules = polygon_of(body, posed.positions, posed.orientations, task.feet.held)
+    plain = new_posed()  # as the search sees it: elbows at their swivels
+    update_pose(task, np.zeros(3), controls, EXACT, False, plain)
+    reference = refer_to(task, plain, com_rules, controls, settings)
 
     start = np.concatenate([np.zeros(3), controls])
-    residuals, scratch = np.empty(RESIDUALS), np.empty(CONTROL_COUNT)
-    form = FORMS.index(settings.objective.form)
-    residuals_into(task, reference, start, scratch, posed, residuals)
+    residuals, form = np.empty(RESIDUALS), FORMS.index(settings.objective.form)
+    measure_into(task, reference, start, controls, posed, residuals)
     errors_initial = term_errors(residuals) | {"total": float(total_error(residuals, reference, form))}
     if not task.feet.held.any():
         return Protection(
@@ -133,12 +136,13 @@ def _solve_protection(body: Body, task: Task, settings: Settings) -> Protection:
         )  # fmt: skip
     solution, polishing = solve(task, reference, form, start, posed, settings)
     solution = keep_limits(task, reference, solution, posed, settings)
+    solution = weigh_arms(task, reference, solution, form, posed, settings)
     shift, controls_end = solution.variables[:3].copy(), np.clip(solution.variables[3:], 0.0, 1.0)
     shift += pose_exactly(task, shift, controls_end, posed, settings.balance.foot_tolerance_m)
     sustained, com = _pose_of(posed), np.array(centre_of_mass(task.bones, posed.positions, posed.orientations))
     support = polygon_of(body, posed.positions, posed.orientations, task.feet.held)
     final = np.concatenate([shift, solution.variables[3:]])
-    residuals_into(task, reference, final, scratch, posed, residuals)
+    measure_into(task, reference, final, controls_end, posed, residuals)
     errors = term_errors(residuals) | {"total": float(total_error(residuals, reference, form))}
     case = case_of(inside(support_rules, com_rules[:2]), inside(support, com[:2]))
     report = SolverReport(
@@ -161,18 +165,38 @@ def solve(
     """Runs the solver that the settings name; the solution, and how many evaluations polishing it took.
 
     A joint limit that is met on the way is a ridge on which BFGS ends in its line search. Least squares, which bends with
-    it, then goes on from there; it knows only the `squares` form.
+    it, goes on from there, and then also from the start. It knows only the `squares` form.
     """
     s = settings.solver
     if s.method == "least_squares":
-        return solve_least_squares(task, reference, start, posed, s.polish_tolerance, s.iterations), 0
+        return solve_by_least_squares(task, reference, start, posed, settings), 0
     found = solve_bfgs(task, reference, form, start, posed, s.offset, s.tolerance, s.iterations, s.restarts)
     if not s.polish or FORMS[form] != "squares":
         return found, 0
     polished = solve_least_squares(task, reference, found.variables, posed, s.polish_tolerance, s.iterations)
-    better = polished.value < found.value
-    variables, value = (polished.variables, polished.value) if better else (found.variables, found.value)
-    return found._replace(variables=variables, value=value), int(polished.evaluations)
+    evaluations = polished.evaluations
+    if found.stop == minimise.LINE_SEARCH:
+        again = solve_by_least_squares(task, reference, start, posed, settings)
+        evaluations += again.evaluations
+        polished = min(polished, again, key=lambda end: end.value)
+    best = min(found, polished, key=lambda end: end.value)
+    return found._replace(variables=best.variables, value=best.value), int(evaluations)
+
+
+def solve_by_least_squares(
+    task: Task, reference: Reference, start: np.ndarray, posed: Posed, settings: Settings
+) -> Solution:
+    """The best of a few descents: from the rules pose, and from there braced with bent knees, where limits are farther off."""
+    s = settings.solver
+    begins = [start]
+    for share, down_m in BRACED_STARTS:
+        braced = start.copy()
+        braced[:2] += share * (np.array(reference.com_wanted_m) - reference.com_rules_m)
+        braced[2] -= down_m
+        begins.append(braced)
+    ends = [solve_least_squares(task, reference, x, posed, s.polish_tolerance, s.iterations) for x in begins]
+    best = min(ends, key=lambda end: end.value)
+    return best._replace(evaluations=sum(end.evaluations for end in ends), value_initial=ends[0].value_initial)
 
 
 def keep_limits(task: Task, reference: Reference, found: Solution, posed: Posed, settings: Settings) -> Solution:
@@ -197,6 +221,26 @@ def keep_limits(task: Task, reference: Reference, found: Solution, posed: Posed,
     return best
 
 
+def weigh_arms(
+    task: Task, reference: Reference, found: Solution, form: int, posed: Posed, settings: Settings
+) -> Solution:
+    """The solution with the COM where it is wanted once the elbows have swung aside: the search is told how far they take it."""
+    if FORMS[form] != "squares":
+        return found
+    controls = np.clip(found.variables[3:], 0.0, 1.0)
+    posed.made_from[:] = np.nan
+    update_pose(task, found.variables, controls, reference.soft_m, False, posed)
+    before = np.array(centre_of_mass(task.bones, posed.positions, posed.orientations))
+    apply_rules(task, found.variables, controls, reference.soft_m, posed)
+    taken_m = (np.array(centre_of_mass(task.bones, posed.positions, posed.orientations)) - before)[:2]
+    if np.abs(taken_m).max() < ARMS_MATTER_M:
+        return found
+    wanted = np.array(reference.com_wanted_m) - taken_m
+    aside = reference._replace(com_wanted_m=(float(wanted[0]), float(wanted[1])))
+    again = solve_least_squares(task, aside, found.variables, posed, settings.solver.polish_tolerance, 20)
+    return found._replace(variables=again.variables)
+
+
 def _legs_trouble(task: Task, variables: np.ndarray, posed: Posed, tolerance_m: float) -> float:
     """What limits forbid the planted legs in the pose that would be shown, radians."""
     pose_exactly(task, variables[:3].copy(), np.clip(variables[3:], 0.0, 1.0), posed, tolerance_m)
@@ -215,9 +259,10 @@ def refer_to(task: Task, posed: Posed, com_m, controls, settings: Settings) -> R
     wanted = com_m[:2] + settings.balance.brace_m * towards
     weights = (
         o.balance_weight, o.hands_weight, o.torso_weight, o.pelvis_height_weight, o.feet_weight,
-        o.control_weight, o.limits_weight, o.arms_weight, o.outside_weight,
+        o.control_weight, o.limits_weight, o.outside_weight,
     )  # fmt: skip
     return Reference(
+        (float(com_m[0]), float(com_m[1])),
         (float(wanted[0]), float(wanted[1])),
         posed.palms.copy(),
         posed.orientations[[PELVIS, WAIST, BACK]].copy(),

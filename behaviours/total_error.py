@@ -21,19 +21,20 @@ from engine.body.kinematics import centre_of_mass
 from engine.body.skeleton import ANKLES, PELVIS
 from engine.maths import quaternion
 
-TERMS = ("balance", "hands", "torso", "pelvis_height", "feet", "controls", "limits", "arms", "outside")
+TERMS = ("balance", "hands", "torso", "pelvis_height", "feet", "controls", "limits", "outside")
 VARIABLES = 3 + CONTROL_COUNT
 FORMS = ("squares", "literal", "smoothed")
 SQUARES, LITERAL, SMOOTHED = range(len(FORMS))
 
 # where each term's residuals begin; the norms of the literal form are taken over runs of two or three of them
-BALANCE, HANDS, TORSO, HEIGHT, FEET, CONTROLS, LIMITS, ARMS, OUTSIDE, RESIDUALS = 0, 2, 8, 17, 18, 24, 31, 33, 35, 42
-BEGIN = (BALANCE, HANDS, TORSO, HEIGHT, FEET, CONTROLS, LIMITS, ARMS, OUTSIDE, RESIDUALS)
+BALANCE, HANDS, TORSO, HEIGHT, FEET, CONTROLS, LIMITS, OUTSIDE, RESIDUALS = 0, 2, 8, 17, 18, 24, 31, 33, 40
+BEGIN = (BALANCE, HANDS, TORSO, HEIGHT, FEET, CONTROLS, LIMITS, OUTSIDE, RESIDUALS)
 
 
 class Reference(NamedTuple):
     """What the rules alone gave, and what is wanted of the COM."""
 
+    com_rules_m: tuple[float, float]  # COM_cur
     com_wanted_m: tuple[float, float]  # COM_des, frozen
     palms: np.ndarray  # (2, 3)
     trunk: np.ndarray  # (3, 4) world orientations of pelvis, waist, back
@@ -46,17 +47,23 @@ class Reference(NamedTuple):
 
 @njit(cache=True, forceinline=True)
 def residuals_into(task, reference, variables, controls, posed, residuals):
-    """Writes the unweighted residuals (42,), and the pose that the variables give. controls (7,) is scratch.
+    """Writes the unweighted residuals (40,), and the pose that the variables give. controls (7,) is scratch.
 
     A control outside [0, 1] acts as if it stood on the bound; how far it is outside is a residual of its own. `posed` may
     have been used before, but for the same task only: see apply_rules.update_pose.
     """
     for i in range(CONTROL_COUNT):
-        value = variables[3 + i]
-        controls[i] = min(1.0, max(0.0, value))
+        controls[i] = min(1.0, max(0.0, variables[3 + i]))
+    update_pose(task, variables, controls, reference.soft_m, False, posed)
+    measure_into(task, reference, variables, controls, posed, residuals)
+
+
+@njit(cache=True, forceinline=True)
+def measure_into(task, reference, variables, controls, posed, residuals):
+    """Writes the residuals (40,) of a pose that is there, and of the variables and clamped controls that it has."""
+    for i in range(CONTROL_COUNT):
         residuals[CONTROLS + i] = controls[i] - reference.controls[i]
-        residuals[OUTSIDE + i] = value - controls[i]
-    update_pose(task, variables, controls, reference.soft_m, posed)
+        residuals[OUTSIDE + i] = variables[3 + i] - controls[i]
     com = centre_of_mass(task.bones, posed.positions, posed.orientations)
     residuals[BALANCE] = com[0] - reference.com_wanted_m[0]
     residuals[BALANCE + 1] = com[1] - reference.com_wanted_m[1]
@@ -72,8 +79,8 @@ def residuals_into(task, reference, variables, controls, posed, residuals):
         for k in range(3):
             residuals[TORSO + 3 * joint + k] = turn[1 + k]
     residuals[HEIGHT] = posed.positions[PELVIS, 2] - reference.pelvis_z
-    for limb in range(4):  # legs, then arms
-        residuals[LIMITS + limb] = posed.trouble[limb]
+    for side in range(2):
+        residuals[LIMITS + side] = posed.trouble[side]
 
 
 @njit(cache=True)
@@ -93,8 +100,7 @@ def _sum_of_norms(residuals, smoothing_m):
     for first in (HANDS, HANDS + 3, TORSO, TORSO + 3, TORSO + 6, FEET, FEET + 3):
         total += math.sqrt(_norm(residuals, first, 3) ** 2 + s * s) - s
     total += math.sqrt(residuals[HEIGHT] ** 2 + s * s) - s
-    for limb in range(4):
-        total += residuals[LIMITS + limb]
+    total += residuals[LIMITS] + residuals[LIMITS + 1]
     for i in range(CONTROL_COUNT):
         total += residuals[OUTSIDE + i] ** 2
     return total
