@@ -18,7 +18,7 @@ from engine.core.errors import BadInput
 from engine.render.camera import Camera, follow, orbit_camera
 from engine.render.context import make_context
 from engine.render.renderer import Renderer
-from engine.render.scene import Scene
+from engine.render.scene import FloorStyle, Scene
 
 # where the camera stands about the character: azimuth from the way it faces at first, elevation, distance
 CAMERAS = {
@@ -40,6 +40,7 @@ class Shot(NamedTuple):
     fps: float = 30.0
     camera: tuple[float, float, float] = CAMERAS["quarter"]  # azimuth and elevation in degrees, distance in metres
     ghosts: Collection[str] = ()
+    floor: str = "gym"  # one of engine.render.scene.FLOORS
 
 
 class Moment(NamedTuple):
@@ -54,7 +55,9 @@ class Moment(NamedTuple):
 def moments(world, advance: Callable[[], None], ticks: int, shot: Shot) -> Iterator[Moment]:
     """Steps a world through that many ticks and gives what is to be seen at every frame."""
     for alpha in frames_of(world, advance, ticks, shot.fps):
-        yield moment(world, alpha, shot.ghosts)
+        now = moment(world, alpha, shot.ghosts)
+        now.scene.floor = FloorStyle(shot.floor)
+        yield now
 
 
 def placed_for(shot: Shot, scenario: Scenario) -> Shot:
@@ -82,14 +85,21 @@ def studio() -> Iterator[Renderer]:
         yield Renderer(context)
 
 
-def film_pictures(renderer: Renderer, seen: Iterator[Moment], shot: Shot) -> Iterator[np.ndarray]:
-    """Draws the moments one after the other, (H, W, 3) uint8 each; the camera goes along with the character."""
+def film_pictures(
+    renderer: Renderer, seen: Iterator[Moment], shot: Shot, witness: Callable[[Moment, Camera], None] | None = None
+) -> Iterator[np.ndarray]:
+    """Draws the moments one after the other, (H, W, 3) uint8 each; the camera goes along with the character.
+
+    witness: is told each moment and from where it was drawn.
+    """
     camera: Camera | None = None
     for now in seen:
         camera = follow(camera or _camera_at(now, shot), now.centre_m, 1.0 / shot.fps, FOLLOW_HALF_LIFE_S)
         now.scene.captions.append(("top-left", f"{now.time_s:.2f} s  {now.phase.replace('_', ' ')}"))
         renderer.draw(now.scene, camera, shot.size_px)
         yield renderer.read_rgb()
+        if witness:
+            witness(now, camera)
 
 
 def strip_pictures(renderer: Renderer, chosen: Sequence[Moment], shot: Shot) -> list[np.ndarray]:

@@ -25,7 +25,7 @@ from engine.maths.shapes import ray_capsule
 from engine.render.camera import Camera, ray_through
 from engine.render.capture import write_png
 from engine.render.events import CTRL, LEFT_BUTTON, Event, Key, MouseButton, MouseMove
-from engine.render.scene import Scene
+from engine.render.scene import FloorStyle, Scene
 
 RATES = (0.05, 0.1, 0.25, 0.5, 1.0, 2.0)
 SLOWEST_MPS, FASTEST_MPS, FULL_HOLD_S = 12.0, 30.0, 0.8  # how hard a throw is, by how long it was held
@@ -47,6 +47,7 @@ class Play:
         self.world, self.timeline, self.picture, self.folder = simulation.world, timeline, picture, folder
         self.clock = Clock()
         self.ghosts: tuple[str, ...] = ()
+        self.floor = FloorStyle("gym")
         self.help = True
         self.cursor_px = (0.0, 0.0)
         self.held_s: float | None = None  # how long a throw has been held
@@ -81,6 +82,7 @@ class Play:
 
     def scene(self) -> Scene:
         scene = scene_of(self.world, 1.0 if self.clock.paused else self.clock.alpha, self.ghosts)
+        scene.floor = self.floor
         scene.captions.append(("top-left", self._status()))
         if self.help:
             scene.captions.append(("bottom-left", "\n".join(HELP)))

@@ -25,6 +25,7 @@ from engine.render.scene import (
     Balance,
     Ball,
     Figure,
+    FloorStyle,
     Scene,
 )
 
@@ -46,7 +47,7 @@ def scene_of(world, alpha: float = 1.0, ghosts: Collection[str] = ()) -> Scene:
 
     `ghosts`: which of GHOSTS to show beside the living, while a character protects itself.
     """
-    scene = Scene()
+    scene = Scene(floor=FloorStyle("gym"))
     for row in world.rows(Character, Posture):
         body, pose = body_of(world, row), shown_pose(world, row, alpha)
         positions, orientations = joints_of(body, pose)

@@ -1,6 +1,9 @@
 #include "frame.glsl"
 #include "tone.glsl"
 #include "backdrop.glsl"
+#ifdef GYM
+#include "court.glsl"
+#endif
 #ifdef SHADED
 #include "shadow.glsl"
 #endif
@@ -21,16 +24,24 @@ float net(vec2 metres, float spacing_m, float width_m) {
 }
 
 void main() {
+#ifdef GYM
+    vec3 surface = court(world_m.xy);
+#else
     vec3 surface = PLAIN;
     if (ground.w > 0.5) {
         float lines = max(0.55 * net(world_m.xy, 0.5, 0.006), 1.0 * net(world_m.xy, 2.5, 0.012));
         surface = mix(PLAIN, LINE, lines);
     }
+#endif
 #ifdef SHADED
     float light = key_light_at(world_m, vec3(0.0, 0.0, 1.0), 4.0);
     surface *= mix(SHADE / PLAIN, vec3(1.0), light);
 #endif
+#ifdef GYM
+    pixel = vec4(varnished(surface, world_m), 1.0);
+#else
     float away = distance(world_m.xy, ground.xy) / ground.z;
     float gone = smoothstep(0.25, 1.0, away);
-    pixel = vec4(mix(surface, backdrop(normalize(world_m - eye_m.xyz)), gone), 1.0);
+    pixel = vec4(mix(surface, paper(normalize(world_m - eye_m.xyz)), gone), 1.0);
+#endif
 }

@@ -29,13 +29,17 @@ def add_filming(parser: argparse.ArgumentParser, size: str = "1280x720") -> None
         "--ghosts", nargs="?", const="all", default="", metavar="NAMES",
         help="shows the clip, rules and sustained pose beside the character: all of them, or names with commas",
     )  # fmt: skip
+    parser.add_argument("--floor", default="gym", metavar="NAME", help="gym, or plain: pale, without walls (gym)")
 
 
 def shot_of(args: argparse.Namespace):
     """The Shot that the arguments of `add_filming` ask for. BadInput where they make no sense."""
     from demos.filming import Shot, parse_camera, parse_ghosts, parse_size
     from engine.core.errors import BadInput
+    from engine.render.scene import FLOORS
 
     if not 1.0 <= args.fps <= 240.0:
         raise BadInput("usage", f"--fps {args.fps:g}: expected 1 to 240")
-    return Shot(parse_size(args.size), args.fps, parse_camera(args.camera), parse_ghosts(args.ghosts))
+    if args.floor not in FLOORS:
+        raise BadInput("usage", f"--floor {args.floor!r}: expected one of {', '.join(FLOORS)}")
+    return Shot(parse_size(args.size), args.fps, parse_camera(args.camera), parse_ghosts(args.ghosts), args.floor)

@@ -22,6 +22,7 @@ def register(subparsers) -> None:
     parser.add_argument("--cases", type=int, default=200, metavar="N", help="with --motion: so many threats (200)")
     parser.add_argument("--seed", type=int, default=1, help="with --motion: of the threats (1)")
     parser.add_argument("--out", metavar="DIR", help="with --motion: the worst cases as filmstrips")
+    parser.add_argument("--render", action="store_true", help="what a frame takes to draw, and the quality it picks")
     parser.set_defaults(run=run)
 
 
@@ -31,6 +32,9 @@ def run(args: argparse.Namespace) -> None:
 
     if args.motion:
         bench_motion(args)
+        return
+    if args.render:
+        bench_render(args)
         return
     for name in args.names:
         if name not in NAMES:
@@ -67,6 +71,18 @@ def bench_motion(args: argparse.Namespace) -> None:
     if args.json:
         figures = [figure._replace(worst=figure.worst and str(figure.worst["case"])) for figure in figures_of(rows)]
         print_json({"cases": len(rows), "figures": [figure._asdict() for figure in figures]})
+        return
+    print("\n".join(lines_of(rows)))
+
+
+def bench_render(args: argparse.Namespace) -> None:
+    """The table of frame times."""
+    from demos.benchmarks.render import bench, lines_of
+    from demos.running import with_progress
+
+    rows = list(with_progress(bench(), "drawing", 4))
+    if args.json:
+        print_json({"frames": [{**row._asdict(), "fps": row.fps, "wanted_fps": row.wanted_fps} for row in rows]})
         return
     print("\n".join(lines_of(rows)))
 

@@ -6,6 +6,7 @@ import argparse
 
 from demos.commands.arguments import add_filming, add_scenario, shot_of
 from demos.output import say
+from engine.core.errors import BadInput
 
 STRIP_FRAMES = 8
 STRIP_SIZE = "400x540"
@@ -24,6 +25,9 @@ def register(subparsers) -> None:
     parser.add_argument("--columns", type=int, metavar="N", help="pictures in a row of a filmstrip (all of them)")
     parser.add_argument("--from", type=float, dest="from_s", metavar="S", help="filmstrip: from this second on")
     parser.add_argument("--to", type=float, dest="to_s", metavar="S", help="filmstrip: up to this second")
+    parser.add_argument("--depth", metavar="FOLDER", help="beside a film: distances, 16 bit PNGs, millimetres, 0 nothing")
+    parser.add_argument("--mask", metavar="FOLDER", help="beside a film: whose each pixel is, 8 bit PNGs")
+    parser.add_argument("--tracks", metavar="FILE.npz", help="beside a film: joints and balls, in space and on the pictures")
     add_filming(parser, size="")
     parser.set_defaults(run=run)
 
@@ -36,24 +40,39 @@ def run(args: argparse.Namespace) -> None:
     args.size = args.size or (STRIP_SIZE if args.output.lower().endswith(".png") else "1280x720")
     shot = shot_of(args)
     kind = capture_kind(args.output)
+    truth = _ground_truth(args, kind, shot)
     simulation = start(*open_scenario(args.scenario, args.set))
     shot = placed_for(shot, simulation.scenario)
     with studio() as renderer:
         if kind == "png":
             write_strip(renderer, args.output, simulation, shot, args.frames, args.columns, args.from_s, args.to_s)
         else:
-            write_film(renderer, args.output, simulation.world, simulation.step, simulation.ticks, shot)
+            witness = truth.witness(renderer) if truth else None
+            write_film(renderer, args.output, simulation.world, simulation.step, simulation.ticks, shot, witness)
     say(f"wrote {args.output}")
+    for path in truth.write() if truth else ():
+        say(f"wrote {path}")
 
 
-def write_film(renderer, output, world, advance, ticks: int, shot) -> None:
+def _ground_truth(args: argparse.Namespace, kind: str, shot):
+    """What is to be written beside the pictures, its places checked; None where nothing is."""
+    from demos.ground_truth import GroundTruth
+
+    if not (args.depth or args.mask or args.tracks):
+        return None
+    if kind == "png":
+        raise BadInput("usage", "--depth, --mask and --tracks go with a film or a folder of pictures, not with a strip")
+    return GroundTruth(shot, args.depth, args.mask, args.tracks)
+
+
+def write_film(renderer, output, world, advance, ticks: int, shot, witness=None) -> None:
     """The whole run as moving pictures."""
     from demos.filming import film_pictures, moments
     from demos.frames import frame_count
     from demos.running import with_progress
     from engine.render.capture import write_film
 
-    drawn = film_pictures(renderer, moments(world, advance, ticks, shot), shot)
+    drawn = film_pictures(renderer, moments(world, advance, ticks, shot), shot, witness)
     write_film(output, with_progress(drawn, "drawing", frame_count(ticks, shot.fps)), shot.fps)
 
 

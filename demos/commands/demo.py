@@ -7,7 +7,7 @@ import os
 from pathlib import Path
 
 from demos.commands.arguments import add_filming, add_scenario, shot_of
-from engine.core.errors import EnvironmentTrouble
+from engine.core.errors import BadInput, EnvironmentTrouble
 
 OFFLINE_SCENARIO = "sway"
 STRIP_SIZE = (400, 540)
@@ -24,6 +24,10 @@ def register(subparsers) -> None:
     add_scenario(parser, default="volleyball")
     add_filming(parser, size="960x540")
     parser.add_argument("-o", "--output", metavar="FOLDER", default="out", help="where pictures go (out)")
+    parser.add_argument(
+        "--quality", default="auto", metavar="LEVEL",
+        help="of the window: best, good, fair, fast, fastest, or auto: by measured frame times (auto)",
+    )  # fmt: skip
     parser.set_defaults(run=run)
 
 
@@ -58,16 +62,31 @@ def _window(args: argparse.Namespace) -> None:
     from engine.render.context import make_context
     from engine.render.controls import CameraHands
     from engine.render.loop import run_loop
+    from engine.render.quality import Governor
     from engine.render.renderer import Renderer
+    from engine.render.scene import FloorStyle
 
     simulation, folder = _simulation(args)
     shot = placed_for(shot_of(args), simulation.scenario)
     with make_context(headless=False, size=shot.size_px, title=f"Brace: {args.scenario}") as context:
-        renderer = Renderer(context)
+        renderer = Renderer(context, _quality(args.quality))
         show = play_of(simulation, journal_of(simulation, folder), renderer.read_rgb, Path.cwd())
         show.ghosts = tuple(shot.ghosts)
+        show.floor = FloorStyle(shot.floor)
         hands = CameraHands(orbit_camera(show.centre_m(), *shot.camera))
-        run_loop(context, renderer, show, hands=hands, follow=show.centre_m)
+        governor = Governor() if args.quality == "auto" else None
+        run_loop(context, renderer, show, hands=hands, follow=show.centre_m, governor=governor)
+
+
+def _quality(name: str):
+    """The level to begin with."""
+    from engine.render.quality import BEST, NAMES, quality_named
+
+    if name == "auto":
+        return BEST
+    if name not in NAMES:
+        raise BadInput("usage", f"--quality {name!r}: expected auto, {', '.join(NAMES)}")
+    return quality_named(name)
 
 
 def _pictures(args: argparse.Namespace) -> None:

@@ -47,7 +47,7 @@ def graded_mesh(shape: Shape, wanted_m: Callable[[np.ndarray], np.ndarray], root
 
 
 def _leaves(shape: Shape, low: np.ndarray, wanted_m, root_m: float, levels: int) -> Leaves:
-    """Splits what the surface may pass until it is small enough. Siblings stay together: neighbours are always there."""
+    """Splits what the surface may pass until small enough. Siblings stay together: neighbours are always there."""
     counts = np.ceil((shape.high + root_m - low) / root_m).astype(int)
     cells = np.stack(np.meshgrid(*map(np.arange, counts), indexing="ij"), axis=-1).reshape(-1, 3)
     lows, sizes = [], []

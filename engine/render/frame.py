@@ -61,7 +61,7 @@ def fit_shadow(scene: Scene) -> Shadow | None:
     )
 
 
-def frame_bytes(scene: Scene, camera: Camera, size_px, shadow: Shadow | None) -> bytes:
+def frame_bytes(scene: Scene, camera: Camera, size_px, shadow: Shadow | None, mirrored: bool = True) -> bytes:
     """The uniform block, std140: every member is a column-major mat4 or a vec4."""
     right, up, forward = camera.axes()
     across, upwards = half_tangents(camera, size_px)
@@ -74,9 +74,14 @@ def frame_bytes(scene: Scene, camera: Camera, size_px, shadow: Shadow | None) ->
         (*TO_LIGHT, float(shadow is not None)),
         (width, height, 1.0 / width, 1.0 / height),
         (*centre, scene.floor.fade_m, float(scene.floor.lines)),
-        (1.0 / shadow.size_px, shadow.texel_m, 0.0, 0.0) if shadow else (1.0, 0.0, 0.0, 0.0),
+        (1.0 / shadow.size_px if shadow else 1.0, shadow.texel_m if shadow else 0.0, _in_gym(scene), float(mirrored)),
         (*up, upwards),
         (*right, across),
         (*forward, 0.0),
     ]
     return np.concatenate([np.asarray(member, "f4").ravel() for member in block]).tobytes()
+
+
+def _in_gym(scene: Scene) -> float:
+    """1 in the gymnasium. A floor that is not shown leaves only paper."""
+    return float(scene.floor.shown and scene.floor.style == "gym")

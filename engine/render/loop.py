@@ -17,6 +17,7 @@ from engine.render.camera import Camera
 from engine.render.context import Context
 from engine.render.controls import CameraHands, steadied
 from engine.render.events import Event
+from engine.render.quality import Governor
 from engine.render.renderer import Renderer
 from engine.render.scene import Scene, extent_points
 
@@ -43,9 +44,11 @@ def run_loop(
     follow: Callable[[], object] | None = None,
     frames: int | None = None,
     clock: Callable[[], float] = time.perf_counter,
+    governor: Governor | None = None,
 ) -> CameraHands:
     """Runs until the window closes, or for a number of frames. Returns the hands, with the camera where it was left.
 
+    governor: picks the quality from what frames take; None leaves the renderer's as it is.
     follow: gives a point (3,) that the camera keeps up with. hands None: the first picture frames everything in it.
     """
     hands = hands or CameraHands(centred=True)
@@ -62,7 +65,11 @@ def run_loop(
             hands.frame(extent_points(scene), size_px)
         elif follow is not None:
             hands.follow(follow(), passed_s)
+        begun_s = clock() if governor else 0.0
         renderer.draw(scene, steadied(hands.camera))
+        if governor:
+            renderer.finish()
+            renderer.quality = governor.took(clock() - begun_s, size_px)
         renderer.present()
         drawn += 1
     return hands

@@ -59,10 +59,17 @@ class Balance:
     colour: Colour = SUSTAINED_ORANGE
 
 
+FLOORS = ("plain", "gym")
+
+
 @dataclass(frozen=True)
 class FloorStyle:
-    """The ground. `centre_m` None follows what the camera looks at."""
+    """The ground and what is around it: `plain`, a floor that melts into paper, or `gym`, a volleyball hall.
 
+    Centre, lines and fading are those of the plain one; `centre_m` None follows what the camera looks at.
+    """
+
+    style: str = "plain"  # one of FLOORS
     shown: bool = True
     lines: bool = True
     centre_m: tuple[float, float] | None = None

@@ -153,7 +153,7 @@ def mesh(shape: Shape, cell_m: float) -> Mesh:
 
 
 def on_surface(field: Field, points: np.ndarray, cell_m: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Points (N, 3) drawn onto the zero set along the gradient, half their cells (N,) a step at most; and the normals."""
+    """Points (N, 3) drawn onto the zero set along the gradient, half a cell (N,) a step at most; and the normals."""
     reach = 0.5 * cell_m[:, None]
     for _ in range(3):
         value, gradient = _value_and_gradient(field, points)

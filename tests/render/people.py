@@ -57,6 +57,27 @@ PROTECT = {
     "right_ankle": "y-20 x10",
 }
 
+BEHIND_HEAD = {
+    "left_clavicle": "x20",
+    "right_clavicle": "x-20",
+    "left_shoulder": "x150 z30",
+    "right_shoulder": "x-150 z-30",
+    "left_elbow": "y-135",
+    "right_elbow": "y-135",
+    "head": "y15",
+}
+SQUAT = {
+    "waist": "y20",
+    "left_hip": "y-110 x15",
+    "right_hip": "y-110 x-15",
+    "left_knee": "y130",
+    "right_knee": "y130",
+    "left_ankle": "y-30",
+    "right_ankle": "y-30",
+    "left_shoulder": "y-80",
+    "right_shoulder": "y-80",
+}
+
 
 def pose_of(body: Body, turns: dict[str, str]) -> Pose:
     """Joint turns in degrees, each in the frame that the one before it left; the lowest sole point on the floor."""
@@ -75,8 +96,10 @@ def pose_of(body: Body, turns: dict[str, str]) -> Pose:
     return Pose(np.array([0.0, 0.0, -min(soles)]), rotations)
 
 
-def person(turns=STAND, colour=PERSON, alpha: float = 1.0, at=(0.0, 0.0), body: Body | None = None) -> Figure:
+def person(
+    turns=STAND, colour=PERSON, alpha: float = 1.0, at=(0.0, 0.0), body: Body | None = None, style: str = "smooth"
+) -> Figure:
     """A figure in one of the poses above, at a place on the floor."""
     body = body or standard_body()
     positions, orientations = joints_of(body, pose_of(body, turns))
-    return Figure(body, positions + (*at, 0.0), orientations, colour, alpha)
+    return Figure(body, positions + (*at, 0.0), orientations, colour, alpha, style)

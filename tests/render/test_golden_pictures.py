@@ -7,6 +7,7 @@ import pytest
 
 from engine.body.anthropometry import standard_body
 from engine.body.kinematics import com_of
+from engine.body.skeleton import LEFT_WRIST
 from engine.body.support import polygon_of
 from engine.core.debug_draw import DebugDraw
 from engine.maths import quaternion
@@ -24,7 +25,9 @@ from engine.render.scene import (
     extent_points,
 )
 from tests.render.golden import SIZE_PX, TOLERANCE, golden, tile_differences
-from tests.render.people import PROTECT, STAND, WALK, person, pose_of
+from tests.render.people import BEHIND_HEAD, PROTECT, SQUAT, STAND, WALK, person, pose_of
+
+GYM = FloorStyle("gym")
 
 
 def _framed(scene: Scene, azimuth_deg: float, elevation_deg: float = 8.0):
@@ -50,6 +53,54 @@ def test_mannequin_back():
 @golden()
 def test_mannequin_protecting():
     return _framed(Scene(figures=[person(PROTECT)]), 40.0)
+
+
+@golden()
+def test_mannequin_behind_head():
+    return _framed(Scene(figures=[person(BEHIND_HEAD)]), 20.0)
+
+
+@golden()
+def test_mannequin_squatting():
+    return _framed(Scene(figures=[person(SQUAT)]), 50.0)
+
+
+@golden()
+def test_mannequin_jointed():
+    return _framed(Scene(figures=[person(PROTECT, style="jointed")]), 40.0)
+
+
+@golden()
+def test_hand():
+    figure = person(PROTECT)
+    x, y, z = figure.positions[LEFT_WRIST]
+    return Scene(figures=[figure]), orbit_camera((x, y, z + 0.05), 60.0, 5.0, 0.9)
+
+
+@golden()
+def test_feet():
+    return Scene(figures=[person(WALK)]), orbit_camera((0.0, 0.0, 0.15), 70.0, 20.0, 1.7)
+
+
+@golden()
+def test_gym():
+    figures = [person(PROTECT), person(WALK, CLIP_BLUE, at=(-0.5, 1.2))]
+    return Scene(figures, [Ball((0.7, 0.5, 1.7))], floor=GYM), orbit_camera((0.0, 0.4, 0.95), 55.0, 9.0, 4.6)
+
+
+@golden()
+def test_gym_from_behind():
+    return Scene(figures=[person(STAND)], floor=GYM), orbit_camera((0.0, 0.0, 2.0), 150.0, 3.0, 9.0)
+
+
+@golden()
+def test_court_from_above():
+    return Scene(floor=GYM), orbit_camera((-6.0, 0.0, 0.0), 30.0, 35.0, 24.0)
+
+
+@golden()
+def test_net():
+    return Scene(floor=GYM), orbit_camera((-6.0, 3.8, 2.0), 20.0, 6.0, 5.0)
 
 
 @golden()
@@ -135,6 +186,9 @@ def test_marks_and_words():
 
 PICTURES = {name: function for name, function in globals().items() if hasattr(function, "build")}
 WITHOUT = [
+    ("test_gym", lambda scene: scene.balls.clear()),
+    ("test_gym", lambda scene: scene.figures.pop(1)),
+    ("test_gym", lambda scene: setattr(scene, "floor", FloorStyle("plain"))),
     ("test_shadow", lambda scene: scene.balls.clear()),
     ("test_shadow", lambda scene: scene.figures.clear()),
     ("test_ghosts", lambda scene: scene.figures.pop(1)),

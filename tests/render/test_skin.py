@@ -1,4 +1,4 @@
-"""The smooth figure: one closed skin, hands with fingers, weights that bend it without pinching, the same on the GPU."""
+"""The smooth figure: one closed skin, hands with fingers, weights that bend without pinching, the same on the GPU."""
 
 from __future__ import annotations
 

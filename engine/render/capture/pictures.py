@@ -48,10 +48,15 @@ def gif_delays_ms(count: int, fps: float) -> list[int]:
 
 
 def write_png_folder(
-    folder, frames: Iterable[np.ndarray], fps: float, progress: Callable[[int], None] | None = None
+    folder,
+    frames: Iterable[np.ndarray],
+    fps: float,
+    progress: Callable[[int], None] | None = None,
+    checked: Callable[[Iterable[np.ndarray], str], Iterator[np.ndarray]] = checked_frames,
 ) -> int:
     """Numbered PNGs and `frames.json`; the folder appears when all are there. Returns how many.
 
+    checked: lets the frames through that are fit to be kept; pictures (H, W, 3) uint8 without it.
     An earlier capture in that place is replaced; BadInput where the folder holds anything else.
     """
     target = check_folder_output(folder)
@@ -59,12 +64,20 @@ def write_png_folder(
     with disk_trouble(target):
         try:
             part.mkdir()
-            names = _write_numbered(part, checked_frames(frames, str(folder)), progress)
+            names = _write_numbered(part, checked(frames, str(folder)), progress)
             _write_manifest(part, names, fps)
             _swap_in(part, target)
         finally:
             shutil.rmtree(part, ignore_errors=True)
     return len(names)
+
+
+def checked_measures(frames: Iterable[np.ndarray], where: str) -> Iterator[np.ndarray]:
+    """Frames of one number a pixel, (H, W) uint8 or uint16; BadInput for anything else."""
+    for number, frame in enumerate(frames):
+        if frame.dtype not in (np.uint8, np.uint16) or frame.ndim != 2 or frame.size == 0:
+            raise BadInput("FRAME", f"frame {number} is {frame.shape} {frame.dtype}, expected (height, width)", where)
+        yield frame
 
 
 def check_folder_output(folder) -> Path:

@@ -7,7 +7,7 @@ import numpy as np
 from engine.render.gpu import Instances, make_pass
 from engine.render.scene import Ball
 
-SOLID, SHADOW = range(2)
+SOLID, SHADOW, MEASURE = range(3)
 SHADOW_UNIT = 1
 VOLLEYBALL, PLAIN = range(2)
 
@@ -16,7 +16,7 @@ class BallPass:
     """Draws solid balls, and after everything else those that are seen through."""
 
     def __init__(self, gl):
-        programs = [make_pass(gl, "ball"), make_pass(gl, "ball", SHADOW=1)]
+        programs = [make_pass(gl, "ball"), make_pass(gl, "ball", SHADOW=1), make_pass(gl, "ball_measure")]
         programs[SOLID]["shadow_map"] = SHADOW_UNIT
         vertices, triangles = unit_sphere()
         layout = (gl.buffer(vertices.astype("f4").tobytes()), "3f", "vertex")
@@ -32,8 +32,8 @@ class BallPass:
         for instances, drawn in ((self.solid, solid), (self.ghosts, ghosts)):
             instances.upload(np.array([_row(ball) for ball in drawn], "f4").reshape(-1, 10))
 
-    def draw_solid(self) -> None:
-        self.solid.draw(SOLID)
+    def draw_solid(self, which: int = SOLID) -> None:
+        self.solid.draw(which)
 
     def draw_shadow(self) -> None:
         self.solid.draw(SHADOW)

@@ -14,7 +14,7 @@ from engine.render.occlusion import CAPSULES, occluders
 from engine.render.scene import Figure
 from engine.render.skinning import world_from_rest
 
-SOLID, SHADOW, GHOST = range(3)
+SOLID, SHADOW, GHOST, MEASURE = range(4)
 POSE_UNIT, SHADOW_UNIT = 0, 1
 # from so many pixels a metre on, cells of the mesh grow by so much
 DETAIL = ((420.0, 1.0), (210.0, 1.4), (90.0, 2.0), (0.0, 2.8))
@@ -34,6 +34,7 @@ class FigurePass:
     def __init__(self, gl):
         self.gl = gl
         self.programs = [make_pass(gl, "figure"), make_pass(gl, "figure_shadow"), make_pass(gl, "figure", GHOST=1)]
+        self.programs.append(make_pass(gl, "figure_measure"))
         for program in self.programs:
             program["joints"] = POSE_UNIT
         self.programs[SOLID]["shadow_map"] = SHADOW_UNIT
@@ -64,10 +65,10 @@ class FigurePass:
             self.shadows.append(self._filled(self.shadow_meshes, key, solid, rows))
         self.ghosts = [placed[row] for row in sorted(placed)]
 
-    def draw_solid(self) -> None:
+    def draw_solid(self, which: int = SOLID) -> None:
         self._bind()
         for instances, count in self.solid:
-            instances.draw(SOLID, count=count)
+            instances.draw(which, count=count)
 
     def draw_shadow(self) -> None:
         self._bind()

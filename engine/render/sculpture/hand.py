@@ -33,7 +33,7 @@ FINGERS = (
 
 
 def hand(tip: np.ndarray, inward: float) -> Shape:
-    """In the wrist's frame. tip (3,): the fingertip of the flat hand; inward: +1 or -1, where along Y the palm looks."""
+    """In the wrist's frame. tip (3,): fingertip of the flat hand; inward: +1 or -1, where along Y the palm looks."""
     size = float(np.linalg.norm(tip)) / HAND_M
     down = tip / np.linalg.norm(tip)
 

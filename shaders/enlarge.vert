@@ -1,0 +1,7 @@
+out vec2 place;
+
+// One triangle over the whole picture.
+void main() {
+    place = vec2(gl_VertexID == 1 ? 2.0 : 0.0, gl_VertexID == 2 ? 2.0 : 0.0);
+    gl_Position = vec4(2.0 * place - 1.0, 0.0, 1.0);
+}
