@@ -51,7 +51,7 @@ class Footage(NamedTuple):
     time_s: np.ndarray  # (F,)
     people: tuple[Person, ...]
     balls: tuple[Thrown, ...]
-    marks: tuple[tuple[float, str], ...]  # (time_s, kind) of the events in MARKED
+    marks: tuple[tuple[float, str], ...]  # (time_s, kind) of the first person's events in MARKED
 
 
 def film(simulation: Simulation, fps: float, title: str, advance: Callable[[], None] | None = None) -> Footage:
@@ -71,7 +71,12 @@ def film(simulation: Simulation, fps: float, title: str, advance: Callable[[], N
         Person(f"{Path(spec.clip).stem}_{k}", spec.sex, body_of(world, row), _continuous(pose), phases[k], planted[k])
         for k, (spec, row, pose) in enumerate(zip(simulation.scenario.character, rows, poses, strict=True))
     ]
-    marks = tuple((event.tick / TICK_RATE_HZ, event.kind) for event in world.events if event.kind in MARKED)
+    first = world.entity(rows[0])
+    marks = tuple(
+        (event.tick / TICK_RATE_HZ, event.kind)
+        for event in world.events
+        if event.kind in MARKED and event.entity == first
+    )
     thrown = tuple(ball.whole() for ball in balls.values())
     return Footage(title, fps, np.arange(count) / fps, tuple(people), thrown, marks)
 

@@ -23,9 +23,10 @@ from engine.render.mesh_cache import body_key
 from engine.render.scene import SUSTAINED_ORANGE
 
 HERE = Path(__file__).resolve().parent
-COARSER = 1.4  # of the figures' meshes: half the corners, hardly to be seen
+COARSER, COARSER_IN_CROWDS, CROWD = 1.4, 2.0, 4  # the figures' meshes, so that pages stay small; from how many on
 EYE_HEIGHT_M = 0.95  # of what the camera looks at
 CALM_S = 0.25  # the camera's path is the mean over so long to either side
+ROOM_M = 1.5  # about the people
 NEAR_M = 2.5  # what is always in the light's reach about the camera's centre
 ALIGNMENT = 4
 PAINT_M = 0.03  # distances from an edge of paint are told up to here
@@ -52,7 +53,7 @@ class Arrays:
 def html_bytes(footage: Footage, camera: tuple[float, float, float]) -> bytes:
     """The whole page; camera: azimuth and elevation in degrees and distance in metres about the people at first."""
     arrays = Arrays()
-    centre, reach_m = centre_of(footage)
+    centre, reach_m, reach_at_first_m = centre_of(footage)
     meshes, people = _people(footage, arrays)
     balls = [
         {
@@ -64,7 +65,7 @@ def html_bytes(footage: Footage, camera: tuple[float, float, float]) -> bytes:
     azimuth, elevation, distance = camera
     head = {
         "title": footage.title, "fps": footage.fps, "frames": len(footage.time_s), "reach_m": reach_m,
-        "camera": [azimuth, elevation, distance + 2.0 * (reach_m - NEAR_M)],
+        "camera": [azimuth, elevation, distance + 2.0 * (reach_at_first_m - NEAR_M)],
         "centre": arrays.add(centre, "f4"), "palette": [np.round(colour, 4).tolist() for colour in PALETTE],
         "meshes": [*meshes, _mesh(ball_surface(), arrays)], "people": people, "balls": balls,
         "phases": _phases(footage), "marks": footage.marks,
@@ -91,8 +92,8 @@ def _source(name: str) -> str:
     return (HERE / name).read_text(encoding="utf-8").rstrip()
 
 
-def centre_of(footage: Footage) -> tuple[np.ndarray, float]:
-    """What the camera looks at (F, 3), calm and at chest height; and how far from it the people get, with some room."""
+def centre_of(footage: Footage) -> tuple[np.ndarray, float, float]:
+    """What the camera looks at (F, 3), calm and at chest height; how far from it people ever are, and at first."""
     pelvis = np.mean([person.pose.root_m for person in footage.people], axis=0)
     wide = min(round(CALM_S * footage.fps), (len(pelvis) - 1) // 2)
     ends = np.pad(pelvis[:, :2], ((wide, wide), (0, 0)), mode="edge")
@@ -100,19 +101,20 @@ def centre_of(footage: Footage) -> tuple[np.ndarray, float]:
     centre = np.column_stack([
         (sums[2 * wide + 1 :] - sums[: -2 * wide - 1]) / (2 * wide + 1), np.full(len(pelvis), EYE_HEIGHT_M)
     ])  # fmt: skip
-    away = max(float(np.hypot(*(person.pose.root_m - centre)[:, :2].T).max()) for person in footage.people)
-    return centre, max(NEAR_M, away + 1.5)
+    away = np.max([np.hypot(*(person.pose.root_m - centre)[:, :2].T) for person in footage.people], axis=0)
+    return centre, max(NEAR_M, float(away.max()) + ROOM_M), max(NEAR_M, float(away[0]) + ROOM_M)
 
 
 def _people(footage: Footage, arrays: Arrays) -> tuple[list[dict[str, Any]], list[dict[str, Any]]]:
     """The meshes, one for each different body, and the people with their motions."""
+    coarser = COARSER if len(footage.people) < CROWD else COARSER_IN_CROWDS
     known: dict[bytes, tuple[int, Surface]] = {}
     meshes: list[dict[str, Any]] = []
     people: list[dict[str, Any]] = []
     for person in footage.people:
         key = body_key(person.body)
         if key not in known:
-            known[key] = (len(meshes), skin_of(person.body, COARSER))
+            known[key] = (len(meshes), skin_of(person.body, coarser))
             meshes.append(_mesh(known[key][1], arrays))
         number, surface = known[key]
         people.append({

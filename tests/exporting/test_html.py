@@ -75,7 +75,8 @@ def test_phases_and_marks_tell_the_story(text):
 
 
 def test_the_camera_looks_at_all_of_them(footage):
-    centre, reach_m = centre_of(footage)
+    centre, reach_m, at_first_m = centre_of(footage)
+    assert at_first_m <= reach_m
     assert centre.shape == (len(footage.time_s), 3)
     for person in footage.people:
         assert np.hypot(*(person.pose.root_m - centre)[:, :2].T).max() < reach_m
