@@ -65,7 +65,7 @@ class GroundTruth:
                 yield path
         if self.tracks:
             with whole_file(self.tracks) as part, open(part, "wb") as file:
-                np.savez_compressed(file, **self._arrays())
+                np.savez_compressed(file, allow_pickle=False, **self._arrays())
             yield self.tracks
 
     def _arrays(self) -> dict[str, np.ndarray]:

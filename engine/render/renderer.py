@@ -34,6 +34,7 @@ class Targets(NamedTuple):
     key: tuple[tuple[int, int], int, float]  # size of the finished picture, samples, scale
     sampled: moderngl.Framebuffer  # multisampled colour and depth
     averaged: moderngl.Framebuffer  # one sample a pixel; the finished picture itself where the scale is 1
+    smaller: moderngl.Texture  # what `averaged` holds where it is not
     picture: moderngl.Framebuffer  # the finished picture
     ghosts: moderngl.Framebuffer  # the same colour, a depth of its own for one ghost at a time
     solid_depth: moderngl.Framebuffer
@@ -178,7 +179,7 @@ class Renderer:
         targets.picture.use()
         if targets.averaged is not targets.picture:
             self.gl.enable_only(moderngl.NOTHING)
-            targets.averaged.color_attachments[0].use(PICTURE_UNIT)
+            targets.smaller.use(PICTURE_UNIT)
             self.enlarge.render(moderngl.TRIANGLES, vertices=3)
         self.gl.enable_only(moderngl.BLEND)
         self.labels.draw()
@@ -217,6 +218,7 @@ def make_targets(gl: moderngl.Context, size_px: tuple[int, int], samples: int, s
         (size_px, samples, scale),
         sampled=gl.framebuffer([colour], depth),
         averaged=picture if drawn_px == size_px else gl.framebuffer([smaller]),
+        smaller=smaller,
         picture=picture,
         ghosts=gl.framebuffer([colour], ghost_depth),
         solid_depth=gl.framebuffer([dummies[0]], depth),

@@ -46,12 +46,13 @@ def anatomical_weights(bind: Bind, points: np.ndarray) -> np.ndarray:
             )
         )
         toe = _toe_share(bind, points, side)
-        chain = (arm, arm * elbow, arm * elbow * wrist, 0.0)
-        for k, joint in enumerate((sk.SHOULDERS[side], sk.ELBOWS[side], sk.WRISTS[side])):
-            weights[:, joint] = chain[k] - chain[k + 1]
-        chain = (leg, leg * knee, leg * knee * ankle, leg * knee * ankle * toe, 0.0)
-        for k, joint in enumerate((sk.HIPS[side], sk.KNEES[side], sk.ANKLES[side], sk.TOES[side])):
-            weights[:, joint] = chain[k] - chain[k + 1]
+        for joints, shares in (
+            ((sk.SHOULDERS, sk.ELBOWS, sk.WRISTS), (arm, elbow, wrist)),
+            ((sk.HIPS, sk.KNEES, sk.ANKLES, sk.TOES), (leg, knee, ankle, toe)),
+        ):
+            from_here = [*np.cumprod(shares, axis=0), np.zeros(len(points))]  # what this joint and those after it have
+            for k, sides in enumerate(joints):
+                weights[:, sides[side]] = from_here[k] - from_here[k + 1]
     for joint, share in _spine_shares(bind, points).items():
         weights[:, joint] = np.maximum(1.0 - limbs, 0.0) * share
     return weights / weights.sum(axis=1, keepdims=True)

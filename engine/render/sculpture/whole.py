@@ -74,7 +74,7 @@ def cell_m(body: Body, bind: Bind, coarser: float):
     ]
     for side in (sk.LEFT, sk.RIGHT):
         tip, toe = body.fingertip_m[side], body.offset_m[sk.TOES[side]]
-        centres.append((_from(bind, sk.WRISTS[side], 0.58 * tip), 0.56 * np.linalg.norm(tip), HAND_CELL_M, 0.6))
+        centres.append((_from(bind, sk.WRISTS[side], 0.58 * tip), 0.56 * float(np.linalg.norm(tip)), HAND_CELL_M, 0.6))
         centres.append((_from(bind, sk.ANKLES[side], 0.6 * toe), 0.16, HEAD_CELL_M, 0.5))
 
     def wanted(points: np.ndarray) -> np.ndarray:
