@@ -65,7 +65,7 @@ def html_bytes(footage: Footage, camera: tuple[float, float, float]) -> bytes:
     azimuth, elevation, distance = camera
     head = {
         "title": footage.title, "fps": footage.fps, "frames": len(footage.time_s), "reach_m": reach_m,
-        "camera": [azimuth, elevation, distance + 2.0 * (reach_at_first_m - NEAR_M)],
+        "camera": [azimuth, elevation, distance + 3.0 * (reach_at_first_m - NEAR_M)],
         "centre": arrays.add(centre, "f4"), "palette": [np.round(colour, 4).tolist() for colour in PALETTE],
         "meshes": [*meshes, _mesh(ball_surface(), arrays)], "people": people, "balls": balls,
         "phases": _phases(footage), "marks": footage.marks,

@@ -7,7 +7,8 @@ import sys
 import pytest
 
 from behaviours.scenario import check_scenario
-from demos import crowd, gauntlet, rewind, volleyball
+from behaviours.stance.shape_sets import SETS
+from demos import crowd, gauntlet, rewind, stances, volleyball
 from demos.cli import main
 from demos.running import open_scenario
 from demos.scenarios import PROGRAMS, names
@@ -53,6 +54,14 @@ def test_volleyball_tells_what_happens_and_makes_a_page(tmp_path, capsys):
     said = capsys.readouterr().out
     assert [word for word in ("play", "protect", "respond") if word not in said] == []
     assert said.index("perceived") < said.index("contact")
+    assert page.read_text().startswith("<!doctype html>")
+
+
+def test_stances_shows_every_set(tmp_path, capsys):
+    page = tmp_path / "stances.html"
+    stances.main(str(page))
+    said = capsys.readouterr().out
+    assert all(f"\n{name} " in f"\n{said}" for name in SETS)
     assert page.read_text().startswith("<!doctype html>")
 
 
