@@ -12,7 +12,7 @@ from collections.abc import Callable
 from statistics import median
 from typing import Any, NamedTuple
 
-NAMES = ("kinematics", "columns", "protection", "search", "clip", "tick", "start_up")
+NAMES = ("kinematics", "columns", "protection", "search", "stance", "clip", "tick", "start_up")
 
 SAMPLE_S = 0.004  # a shorter sample would measure the clock
 LEAST_SAMPLES, MOST_SAMPLES, LONGEST_S = 5, 60, 1.5

@@ -224,7 +224,7 @@ def balanced(body, plan, unknowns, start):
     def error(offsets):
         return assembled(body, plan, unknowns, offsets)[1] - plan.balance_m
 
-    found = root(error, start, tol=1e-8)
+    found = root(error, start, tol=1e-6)
     return assembled(body, plan, unknowns, found.x)[0], found.x
 
 

@@ -22,6 +22,7 @@ from behaviours.stance.measures import Measures, measures
 from behaviours.stance.shape import shape
 from behaviours.stance.shape_sets import SETS
 from behaviours.stance.solve import StanceResult, solve_shape, solve_stance
+from behaviours.stance.solver import STOPS_IMPROVING
 from engine.body.anthropometry import standard_body
 from engine.body.skeleton import ANKLES, SHOULDERS, Body
 from engine.maths import quaternion, rotations
@@ -94,6 +95,7 @@ def bars(count: int = CASES, seed: int = SEED, progress: Callable[[Any], Any] = 
     return [
         *_error_bars(body, solved),
         *_solver_bars([result for _, result, _ in solved], seconds),
+        _against_plain(body),
         *_continuity_bars(body, solved),
         *_sequence_bars(body),
     ]  # fmt: skip
@@ -166,6 +168,21 @@ def _solver_bars(results: list[StanceResult], seconds: list[float]) -> list[Bar]
         Bar("one solve, median, ms", one_ms, "< 0.5", one_ms < 0.5, f"95 % under {slowest_ms:.2f}"),
         Bar("one solve with a target, median, ms", reach_ms, "< 0.5", reach_ms < 0.5),
     ]  # fmt: skip
+
+
+def _against_plain(body: Body) -> Bar:
+    """One stance that reaches, ours and in plain numpy and SciPy, in this same run."""
+    from demos.benchmarks import plain_stance
+
+    case = Case("recoil-mild", 0.4, {"object_m": (1.2, -0.3, 1.2), "reach_right_m": (0.5, -0.3, 1.25)})
+    result, ours_s = _timed(body, case)
+    bounds = torso.amplitude_bounds(body, result.plan.classes, result.plan.opposed)
+    begun = time.perf_counter()
+    joints, _ = plain_stance.solve(body, result.plan, result.wishes, bounds, STOPS_IMPROVING)
+    plain_s = time.perf_counter() - begun
+    apart_mm = 1e3 * float(np.abs(joints - result.joints_m).max())
+    note = f"{1e3 * ours_s:.2f} ms against {plain_s:.1f} s; {apart_mm:.1f} mm apart"
+    return Bar("times faster than plain numpy and SciPy", plain_s / ours_s, "> 1", ours_s < plain_s, note)
 
 
 def _continuity_bars(body: Body, solved) -> list[Bar]:

@@ -18,9 +18,10 @@ def register(subparsers) -> None:
     )
     parser.add_argument("names", nargs="*", metavar="NAME", help="only these (all without any)")
     parser.add_argument("--json", action="store_true", help="the same for programs")
-    parser.add_argument("--motion", action="store_true", help="how good the motion is, over seeded threats at real clips")
-    parser.add_argument("--cases", type=int, default=200, metavar="N", help="with --motion: so many threats (200)")
-    parser.add_argument("--seed", type=int, default=1, help="with --motion: of the threats (1)")
+    parser.add_argument("--motion", action="store_true", help="how good motion is, over seeded threats at real clips")
+    parser.add_argument("--stance", action="store_true", help="how good stances are, over solves of all sets")
+    parser.add_argument("--cases", type=int, metavar="N", help="of --motion (200) or --stance (504)")
+    parser.add_argument("--seed", type=int, default=1, help="with --motion, --stance: of the cases (1)")
     parser.add_argument("--out", metavar="DIR", help="with --motion: the worst cases as filmstrips")
     parser.add_argument("--render", action="store_true", help="what a frame takes to draw, and the quality it picks")
     parser.set_defaults(run=run)
@@ -32,6 +33,9 @@ def run(args: argparse.Namespace) -> None:
 
     if args.motion:
         bench_motion(args)
+        return
+    if args.stance:
+        bench_stance(args)
         return
     if args.render:
         bench_render(args)
@@ -60,9 +64,7 @@ def bench_motion(args: argparse.Namespace) -> None:
     from demos.benchmarks.motion_table import figures_of, lines_of
     from demos.running import with_progress
 
-    if args.cases < 1:
-        raise BadInput("usage", f"--cases {args.cases}: expected at least 1")
-    rows = bench(args.cases, args.seed, lambda cases: with_progress(cases, "throwing", len(cases)))
+    rows = bench(_cases(args, 200), args.seed, lambda cases: with_progress(cases, "throwing", len(cases)))
     if args.out:
         folder = Path(args.out)
         folder.mkdir(parents=True, exist_ok=True)
@@ -73,6 +75,26 @@ def bench_motion(args: argparse.Namespace) -> None:
         print_json({"cases": len(rows), "figures": [figure._asdict() for figure in figures]})
         return
     print("\n".join(lines_of(rows)))
+
+
+def bench_stance(args: argparse.Namespace) -> None:
+    """The table of figures of stances, each with its bar."""
+    from demos.benchmarks.stance_bars import CASES, bars, table
+    from demos.running import with_progress
+
+    found = bars(_cases(args, CASES), args.seed, lambda cases: with_progress(cases, "solving", len(cases)))
+    if args.json:
+        print_json({"figures": [bar._asdict() for bar in found]})
+        return
+    print("\n".join(table(found)))
+
+
+def _cases(args: argparse.Namespace, usual: int) -> int:
+    """How many cases are asked for. BadInput below one."""
+    count = usual if args.cases is None else args.cases
+    if count < 1:
+        raise BadInput("usage", f"--cases {count}: expected at least 1")
+    return count
 
 
 def bench_render(args: argparse.Namespace) -> None:
