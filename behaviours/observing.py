@@ -116,7 +116,13 @@ def _line(world, row: int, tick: int, body: Body) -> Line:
         for side in range(2)
     )
     return Line(
-        tick, joints_m, start_m, end_m, (left, right), com_of(body, source), (com_of(body, ends[0]), com_of(body, ends[1]))
+        tick,
+        joints_m,
+        start_m,
+        end_m,
+        (left, right),
+        com_of(body, source),
+        (com_of(body, ends[0]), com_of(body, ends[1])),
     )
 
 

@@ -1,7 +1,7 @@
 """Both feet on the ground before the rules run (Hermens 2006, 3.3; specification A4): where each foot stands.
 
-A foot that is planted at perception stays. One in the air goes to the nearest ground that its leg reaches, below where the
-look-ahead has carried it; it is left in the air only where the hip is too high.
+A foot that is planted at perception stays. One in the air goes to the nearest ground that its leg reaches, below
+where the look-ahead has carried it; it is left in the air only where the hip is too high.
 """
 
 from __future__ import annotations
@@ -47,7 +47,11 @@ def stand_where_planted(planted, positions, orientations, rotations) -> FeetPlan
     """The plan that holds every planted foot exactly where a pose (J, ...) has it; the other is not held."""
     ankles, toes = list(ANKLES), list(TOES)
     return FeetPlan(
-        positions[ankles].copy(), orientations[ankles].copy(), rotations[toes].copy(), np.array(planted, bool), np.zeros(2)
+        positions[ankles].copy(),
+        orientations[ankles].copy(),
+        rotations[toes].copy(),
+        np.array(planted, bool),
+        np.zeros(2),
     )
 
 
@@ -69,7 +73,8 @@ def lowering_m(body: Body, feet: FeetPlan, hips_m, leg_share: float, most_m: flo
 def set_down(body: Body, feet: FeetPlan, hips_m, ahead_positions, ahead_orientations, leg_share: float) -> FeetPlan:
     """The plan with the feet that are in the air set down where they reach the ground: flat, heading as they will head.
 
-    hips_m (2, 3): of the rules pose; ahead_... (J, ...): the clip at the look-ahead, which says where the feet are going.
+    hips_m (2, 3): of the rules pose; ahead_... (J, ...): the clip at the look-ahead, which says where the feet are
+    going.
     """
     feet = FeetPlan(*(array.copy() for array in feet))
     positions = np.ascontiguousarray(ahead_positions)
@@ -86,6 +91,8 @@ def set_down(body: Body, feet: FeetPlan, hips_m, ahead_positions, ahead_orientat
 
 
 def steps_m(feet: FeetPlan, now_positions: np.ndarray) -> np.ndarray:
-    """(2,) how far each held foot goes from where it is at perception (J, 3); beyond 3 cm it is lifted, never dragged."""
+    """(2,) how far each held foot goes from where it is at perception (J, 3); beyond 3 cm it is lifted, never
+    dragged.
+    """
     away = feet.ankle_m - now_positions[list(ANKLES)]
     return np.where(feet.held, np.sqrt(np.sum(away * away, axis=1)), 0.0)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-
+from typing import Any
 
 import numpy as np
 from numba import njit
@@ -49,9 +49,9 @@ def prepare(
 ) -> Task:
     """The task of protecting against a threat perceived in `pose_now`, world poses, before any rule has acted.
 
-    pose_ahead: the clip 1/6 s later, where the pelvis and a foot in the air are taken from. planted (2,): the feet that stand
-    at perception. With `landing`, pose_ahead is the clip's next landing instead, `planted` the feet that stand *there*,
-    and they are held where that pose has them.
+    pose_ahead: the clip 1/6 s later, where the pelvis and a foot in the air are taken from. planted (2,): the feet
+    that stand at perception. With `landing`, pose_ahead is the clip's next landing instead, `planted` the feet that
+    stand *there*, and they are held where that pose has them.
     """
     if _side(pose_now, threat, settings, previous_turn_side) == TURN_RIGHT:
         return _prepare(body, pose_now, pose_ahead, planted, threat, settings, previous_turn_side, landing)
@@ -119,7 +119,8 @@ def _prepare(
     return task._replace(choices=choose_guard(task, posed))
 
 
-def _floats(row) -> tuple[float, ...]:
+def _floats(row) -> Any:
+    """A row of numbers as a tuple, for kernels."""
     return tuple(float(v) for v in row)
 
 
@@ -192,7 +193,9 @@ def choose_guard(task: Task, posed: Posed) -> Choices:
     """How the hands stand to the line, from the rules pose before block: sides, fingers, and how far the arms wrap."""
     tangent = task.threat.tangent
     torso_x = quaternion.rotate(posed.orientations[BACK], (1.0, 0.0, 0.0))
-    shoulders = vector.subtract(*(shoulder_before_recoil(task, posed, joint) for joint in (LEFT_SHOULDER, RIGHT_SHOULDER)))
+    shoulders = vector.subtract(
+        *(shoulder_before_recoil(task, posed, joint) for joint in (LEFT_SHOULDER, RIGHT_SHOULDER))
+    )
     shoulders = vector.unit((shoulders[0], shoulders[1], 0.0), (0.0, 1.0, 0.0))
     across = vector.unit(vector.cross(tangent, UP), shoulders)
     # a line that comes along the shoulders has no left hand's side: there the offset goes smoothly through zero

@@ -112,6 +112,10 @@ class Posed(NamedTuple):
     made_from: np.ndarray  # (3, 6) what trunk and legs, left and right arm were last made from; see apply_rules
 
 
+def _triple(row) -> Triple:
+    return (float(row[0]), float(row[1]), float(row[2]))
+
+
 def bones_of(body: Body) -> tuple[Bones, Build]:
     """What kernels need of a body."""
     capsules, row = body_capsules(body), CAPSULES.index
@@ -126,7 +130,7 @@ def bones_of(body: Body) -> tuple[Bones, Build]:
         np.stack([capsules.start_m[obstacles], capsules.end_m[obstacles]], axis=1),
     )
     build = Build(
-        tuple(tuple(palm.tolist()) for palm in body.palm_m),
+        (_triple(body.palm_m[0]), _triple(body.palm_m[1])),
         tuple((lengths_m[list(ELBOWS)] + lengths_m[list(WRISTS)]).tolist()),
         tuple((lengths_m[list(KNEES)] + lengths_m[list(ANKLES)]).tolist()),
         tuple((-body.limit_low_rad[list(ELBOWS), 1]).tolist()),

@@ -71,8 +71,11 @@ def bench_motion(args: argparse.Namespace) -> None:
         for path in write_worst(rows, folder):
             say(f"wrote {path}")
     if args.json:
-        figures = [figure._replace(worst=figure.worst and str(figure.worst["case"])) for figure in figures_of(rows)]
-        print_json({"cases": len(rows), "figures": [figure._asdict() for figure in figures]})
+        figures = [
+            figure._asdict() | {"worst": str(figure.worst["case"]) if figure.worst else None}
+            for figure in figures_of(rows)
+        ]
+        print_json({"cases": len(rows), "figures": figures})
         return
     print("\n".join(lines_of(rows)))
 

@@ -15,6 +15,7 @@ from engine.body.kinematics import joints_of
 from engine.body.skeleton import ANKLES, JOINT_COUNT, Body, Pose
 
 BODY = standard_body()
+DEFAULTS = Settings()
 BOTH = np.array([True, True])
 
 
@@ -26,8 +27,17 @@ def standing(body: Body = BODY, heading_rad: float = 0.0) -> Pose:
     return Pose(np.array([0.0, 0.0, -positions[ANKLES[0], 2] - body.sole_m[0, 0, 2]]), rotations)
 
 
-def coming(azimuth_deg: float, elevation_deg: float = 5.0, *, body: Body = BODY, heading_rad: float = 0.0,
-           speed: float = 0.5, size: float = 0.5, target: str = "head", weights=(1.0, 0.0)) -> PerceivedThreat:  # fmt: skip
+def coming(
+    azimuth_deg: float,
+    elevation_deg: float = 5.0,
+    *,
+    body: Body = BODY,
+    heading_rad: float = 0.0,
+    speed: float = 0.5,
+    size: float = 0.5,
+    target: str = "head",
+    weights=(1.0, 0.0),
+) -> PerceivedThreat:
     """A threat on a straight path from a direction in the character's heading; its line still to be aimed."""
     azimuth, elevation = math.radians(azimuth_deg) + heading_rad, math.radians(elevation_deg)
     level = math.cos(elevation)
@@ -37,7 +47,7 @@ def coming(azimuth_deg: float, elevation_deg: float = 5.0, *, body: Body = BODY,
 
 
 def met(threat: PerceivedThreat, *, body: Body = BODY, now: Pose | None = None, ahead: Pose | None = None,
-        planted=BOTH, settings: Settings = Settings(), **more) -> Protection:  # fmt: skip
+        planted=BOTH, settings: Settings = DEFAULTS, **more) -> Protection:  # fmt: skip
     """The protection against a threat, its line aimed at where the target will be."""
     now = standing(body) if now is None else now
     ahead = now if ahead is None else ahead

@@ -14,8 +14,8 @@ TANGENT = (-1.0, 0.0, 0.0)  # straight from the front
 LEFTWARD = (0.0, 1.0, 0.0)
 
 
-def palm(side=0, shoulder=(0.0, 0.2, 1.4), reach=0.5, target=(0.0, 0.0, 1.5), line=(0.0, 0.0, 1.5), torso=(1.0, 0.0, 0.0),
-         clearance=0.2, offset=0.08):  # fmt: skip
+def palm(side=0, shoulder=(0.0, 0.2, 1.4), reach=0.5, target=(0.0, 0.0, 1.5), line=(0.0, 0.0, 1.5),
+         torso=(1.0, 0.0, 0.0), clearance=0.2, offset=0.08):  # fmt: skip
     return np.array(palm_target(side, shoulder, reach, target, line, TANGENT, LEFTWARD, torso, clearance, offset, 0.02))
 
 

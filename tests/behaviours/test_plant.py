@@ -51,7 +51,8 @@ def test_a_foot_in_the_air_is_put_down_flat_where_it_was_going():
     soles = sole_points(BODY, positions, orientations)[0]
     assert soles[:, 2] == pytest.approx(0.0, abs=1e-3)  # all six points on the floor
     assert found.feet.ankle_m[0, :2] == pytest.approx(ankles(ahead)[0][0, :2], abs=1e-6)
-    assert found.feet.step_m[0] > 0.03 and found.feet.step_m[1] == 0.0
+    assert found.feet.step_m[0] > 0.03
+    assert found.feet.step_m[1] == 0.0
 
 
 def test_out_of_reach_it_goes_to_the_nearest_ground():
@@ -69,7 +70,8 @@ def test_too_high_a_hip_leaves_the_foot_in_the_air():
     task = prepare(BODY, jump, jump, [False, True], coming(10), Settings())
     found = met(coming(10), now=jump, ahead=jump, planted=LEFT_UP)
     # the right foot is held in the air where it is; the left cannot reach the ground
-    assert task.feet.held.tolist() == [False, True] and not found.feet.held[0]
+    assert task.feet.held.tolist() == [False, True]
+    assert not found.feet.held[0]
 
 
 def test_the_pelvis_of_the_look_ahead_is_drawn_within_the_planted_legs_reach():
@@ -89,9 +91,11 @@ def test_the_pelvis_keeps_its_momentum_where_the_legs_allow_it():
 def test_in_the_air_the_upper_body_alone_protects():
     jump = moved(standing(), (0.0, 0.0, 0.5))
     found = met(coming(-30), now=jump, ahead=moved(jump, (0.1, 0, 0.05)), planted=~BOTH)
-    assert found.case.name == "AIRBORNE" and found.solver.stop == "not needed"
+    assert found.case.name == "AIRBORNE"
+    assert found.solver.stop == "not needed"
     assert found.sustained.root_m == pytest.approx(jump.root_m + [0.1, 0, 0.05])
-    assert len(found.support_m) == 0 and not found.feet.held.any()
+    assert len(found.support_m) == 0
+    assert not found.feet.held.any()
 
 
 def test_a_landing_in_time_is_where_the_feet_are_held():

@@ -25,7 +25,8 @@ def test_it_has_the_promised_keys_and_is_json(posed):
     assert list(report["controls"]) == list(report["controls_initial"]) == list(CONTROLS)
     assert set(report["error"]) >= {"balance", "hands", "torso", "pelvis_height", "feet", "total"}
     assert set(report["error"]) == set(report["error_initial"])
-    assert report["solver"]["name"] == "bfgs" and report["solver"]["milliseconds"] == 1.25
+    assert report["solver"]["name"] == "bfgs"
+    assert report["solver"]["milliseconds"] == 1.25
     assert set(report["solver"]) >= {"name", "iterations", "evaluations", "milliseconds"}
     for pose in ("clip", "rules", "sustained"):
         assert list(report["pose"][pose]["joints_m"]) == list(report["pose"][pose]["rotations_wxyz"]) == list(JOINTS)
@@ -50,7 +51,8 @@ def test_the_flight_meets_the_line(posed):
 def test_the_picture_shows_the_ball_before_its_target(posed):
     picture = picture_of(posed, before_m=0.8)
     assert np.linalg.norm(picture.ball_m - picture.line_m[1]) == pytest.approx(0.8)
-    assert picture.support_m.shape[1] == 2 and picture.com_m.shape == (3,)
+    assert picture.support_m.shape[1] == 2
+    assert picture.com_m.shape == (3,)
 
 
 def test_targets_change_the_defence(shared_mocap):

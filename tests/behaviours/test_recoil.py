@@ -20,7 +20,8 @@ def moved_by(rule, amount):
 
 def test_both_shoulders_rise_and_come_forward():
     moved = moved_by(raise_clavicle, 1.0)[list(SHOULDERS)]
-    assert np.all(moved[:, 2] > 0.05) and np.all(moved[:, 0] > 0.01)
+    assert np.all(moved[:, 2] > 0.05)
+    assert np.all(moved[:, 0] > 0.01)
 
 
 def test_both_sides_alike():
@@ -31,9 +32,11 @@ def test_both_sides_alike():
 
 def test_the_control_scales_it():
     rise = [moved_by(raise_clavicle, c)[SHOULDERS[0], 2] for c in (0.0, 0.5, 1.0)]
-    assert rise[0] == 0.0 and 0.0 < rise[1] < rise[2]
+    assert rise[0] == 0.0
+    assert 0.0 < rise[1] < rise[2]
 
 
 def test_retracted_arms_bring_the_hands_forward_and_up():
     hands = moved_by(retract_arm, 1.0)[list(WRISTS)]
-    assert np.all(hands[:, 0] > 0.05) and np.all(hands[:, 2] > 0.3)
+    assert np.all(hands[:, 0] > 0.05)
+    assert np.all(hands[:, 2] > 0.3)

@@ -10,8 +10,8 @@ from engine.core.errors import BadInput
 
 def test_every_constant_says_unit_section_and_meaning():
     table = constants()
-    fields = [f"{name}.{field}" for name, group in zip(Settings._fields, Settings(), strict=True) for field in group._fields]
-    assert list(table) == fields
+    groups = zip(Settings._fields, Settings(), strict=True)
+    assert list(table) == [f"{name}.{field}" for name, group in groups for field in group._fields]
     assert all(c.unit and c.section and c.meaning for c in table.values())
 
 
@@ -34,9 +34,12 @@ def test_defaults_are_the_thesis_numbers():
 def test_override_by_dotted_name_keeps_types_and_the_original():
     before = Settings()
     after = override(before, {"block.reach_far_m": 1, "solver.iterations": 30.0, "objective.form": "literal"})
-    assert after.block.reach_far_m == 1.0 and isinstance(after.block.reach_far_m, float)
-    assert after.solver.iterations == 30 and isinstance(after.solver.iterations, int)
-    assert after.objective.form == "literal" and before == Settings()
+    assert after.block.reach_far_m == 1.0
+    assert isinstance(after.block.reach_far_m, float)
+    assert after.solver.iterations == 30
+    assert isinstance(after.solver.iterations, int)
+    assert after.objective.form == "literal"
+    assert before == Settings()
 
 
 def test_degrees_at_the_interface():
@@ -65,5 +68,6 @@ def test_a_wrong_override_says_what_was_expected(change, said):
 
 
 def test_every_choice_of_words_is_listed():
-    words = {f"{n}.{f}" for n, g in zip(Settings._fields, Settings(), strict=True) for f in g._fields if isinstance(getattr(g, f), str)}
+    groups = zip(Settings._fields, Settings(), strict=True)
+    words = {f"{n}.{f}" for n, g in groups for f in g._fields if isinstance(getattr(g, f), str)}
     assert words == set(CHOICES)

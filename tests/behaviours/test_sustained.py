@@ -23,7 +23,7 @@ from engine.body.support import inside, sole_points
 from engine.clips.importing import import_clip
 from engine.clips.mirror import mirror_clip
 from engine.clips.playback import sample
-from tests.behaviours.people import BODY, coming, met
+from tests.behaviours.people import BODY, DEFAULTS, coming, met
 
 FRAMES = [  # file, time, azimuth, elevation, speed, size, target
     ("bvh/02_01.bvh", 1.0, 30, 5, 26.0, 0.5, "head"),
@@ -50,7 +50,9 @@ def clip_of(shared_mocap):
     return clip
 
 
-@pytest.fixture(scope="module", params=FRAMES, ids=lambda f: f"{f[0].split('/')[1].split('.')[0]}-{f[1]}s-{f[2]}-{f[6]}")
+@pytest.fixture(
+    scope="module", params=FRAMES, ids=lambda f: f"{f[0].split('/')[1].split('.')[0]}-{f[1]}s-{f[2]}-{f[6]}"
+)
 def real(request, clip_of):
     """(clip, time, posed case) of one real frame."""
     name, at_s, azimuth, elevation, speed, size, target = request.param
@@ -118,7 +120,7 @@ def start_of(found):
     return np.concatenate([np.zeros(3), found.controls_initial])
 
 
-def solved(task, reference, posed, start, settings=Settings()):
+def solved(task, reference, posed, start, settings=DEFAULTS):
     """The default way: BFGS, polished."""
     return solve(task, reference, SQUARES, start, posed, settings)[0].value
 
@@ -133,7 +135,8 @@ def test_least_squares_finds_as_low_an_error(real):
         found.task, found.reference, start_of(found), posed, override(Settings(), {"solver.polish_tolerance": 1e-8})
     )
     assert squares.value <= bfgs.value * (1.0 + 1e-6)
-    assert np.all(squares.variables[3:] >= 0.0) and np.all(squares.variables[3:] <= 1.0)
+    assert np.all(squares.variables[3:] >= 0.0)
+    assert np.all(squares.variables[3:] <= 1.0)
 
 
 def test_scipys_bfgs_agrees_on_the_same_objective(real):
@@ -183,16 +186,22 @@ def test_the_literal_total_is_the_plain_sum_of_eq_3_3():
 
 def test_least_squares_can_be_the_solver():
     found = met(coming(30), settings=override(Settings(), {"solver.method": "least_squares"}))
-    assert found.solver.name == "least_squares" and found.errors["balance"] < 0.01
+    assert found.solver.name == "least_squares"
+    assert found.errors["balance"] < 0.01
     assert found.solver.evaluations < 900
 
 
 def test_the_report_says_how_the_search_went():
     found = met(coming(30))
-    assert found.solver.name == "bfgs" and found.solver.iterations > 3
+    assert found.solver.name == "bfgs"
+    assert found.solver.iterations > 3
     assert found.solver.evaluations > 20 * found.solver.iterations
     assert found.solver.stop in ("converged", "line_search", "iterations", "flat")
-    assert set(found.errors) == set(found.errors_initial) >= {"balance", "hands", "torso", "pelvis_height", "feet", "total"}
+    assert (
+        set(found.errors)
+        == set(found.errors_initial)
+        >= {"balance", "hands", "torso", "pelvis_height", "feet", "total"}
+    )
 
 
 def test_the_cases_of_figure_3_10():

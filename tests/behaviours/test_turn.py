@@ -1,4 +1,6 @@
-"""Turn away: sides, angles and shares. The limits mean that the goal is often not reached, so the goal is not what is tested."""
+"""Turn away: sides, angles and shares. The limits mean that the goal is often not reached, so the goal is not what is
+tested.
+"""
 
 import math
 

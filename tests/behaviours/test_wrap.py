@@ -14,7 +14,8 @@ from tests.behaviours.people import BODY, coming, met
 
 
 def test_the_share_runs_from_block_to_wrap_between_its_two_dots():
-    shares = [wrap_share((1.0, 0.0, 0.0), (d, math.sqrt(1 - d * d), 0.0), Wrap()) for d in (0.5, 0.15, 0.0, -0.15, -0.9)]
+    dots = (0.5, 0.15, 0.0, -0.15, -0.9)
+    shares = [wrap_share((1.0, 0.0, 0.0), (d, math.sqrt(1 - d * d), 0.0), Wrap()) for d in dots]
     assert shares == pytest.approx([0.0, 0.0, 0.5, 1.0, 1.0])
 
 
