@@ -114,6 +114,19 @@ def test_a_longer_forearm_lengthens_the_skin_there():
     assert grown[0] - grown[1] == pytest.approx(0.2 * np.linalg.norm(BODY.offset_m[sk.LEFT_WRIST]), abs=0.015)
 
 
+def test_a_skeleton_with_shoulders_at_its_neck_does_not_shrug():
+    """The skin over the shoulders rises by less than half of what the joints do, and a neck still shows."""
+    offset = BODY.offset_m.copy()
+    offset[[*sk.SHOULDERS], 2] += 0.10
+    tops = []
+    for body in (BODY, make_body(offset)):
+        mesh, rest = mannequin_mesh(body, 2.0), rest_positions(body)
+        beside = np.abs(mesh.positions[:, 1] - rest[sk.LEFT_SHOULDER][1]) < 0.03
+        tops.append(mesh.positions[beside, 2].max() - rest[sk.HEAD][2])
+    assert tops[1] < -0.06  # the chin is above
+    assert 0.0 < tops[1] - tops[0] < 0.06
+
+
 def test_a_hand_has_four_fingers_apart_and_a_thumb():
     shape = hand(np.array([0.0, 0.0, -HAND_M]), -1.0)
     across = np.linspace(-0.09, 0.09, 721)

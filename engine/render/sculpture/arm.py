@@ -27,10 +27,10 @@ def arm_parts(body: Body, side: int) -> list[Part]:
     ]
 
 
-def upper_arm(bone: np.ndarray, out: float) -> Shape:
-    """Deltoid, biceps and triceps around a tapering arm."""
-    arm = taper((0, 0.008 * out, -0.004), 0.97 * bone, 0.052, 0.0385)
-    deltoid = ellipsoid(0.16 * bone + (0, 0.010 * out, 0), (0.054, 0.047, 0.075))
+def upper_arm(bone: np.ndarray, out: float, drop_m: float = 0.0) -> Shape:
+    """Deltoid, biceps and triceps around a tapering arm, whose top is put that much lower."""
+    arm = taper((0, 0.008 * out, -0.004 - drop_m), 0.97 * bone, 0.052, 0.0385)
+    deltoid = ellipsoid(0.16 * bone + (0, 0.010 * out, -0.8 * drop_m), (0.054, 0.047, 0.075))
     biceps = ellipsoid(0.48 * bone + (0.008, 0.002 * out, 0), (0.044, 0.042, 0.085))
     return blend(0.03, arm, deltoid, biceps)
 

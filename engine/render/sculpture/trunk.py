@@ -11,6 +11,8 @@ from engine.body.skeleton import Body
 from engine.render.sculpture.parts import JOINT, SHELL, Part, outwards
 from engine.render.surface import Shape, ball, blend, both_sides, carve, ellipsoid, half_space, shifted, taper
 
+SHOULDERS_UNDER_HEAD_M = 0.155  # joints of a person's shoulders under the joint of the head, at least
+
 
 class Trunk(NamedTuple):
     """Landmarks in the identity pose, seen from the pelvis."""
@@ -18,6 +20,7 @@ class Trunk(NamedTuple):
     rest: np.ndarray  # (21, 3) all joints
     hips: np.ndarray  # (3,) between the hip joints
     neck: np.ndarray  # (3,) where the neck comes out
+    drop_m: float = 0.0  # how far under the shoulder joints the flesh of the shoulders lies; see shoulder_drop_m
 
     @property
     def height(self) -> float:
@@ -45,9 +48,17 @@ def trunk_parts(body: Body, rest: np.ndarray) -> list[Part]:
     ]
 
 
-def trunk_of(rest: np.ndarray) -> Trunk:
+def trunk_of(rest: np.ndarray, drop_m: float = 0.0) -> Trunk:
     """The landmarks of a body whose joints (21, 3) are there in the identity pose."""
-    return Trunk(rest, 0.5 * (rest[sk.LEFT_HIP] + rest[sk.RIGHT_HIP]), neck_root(rest))
+    return Trunk(rest, 0.5 * (rest[sk.LEFT_HIP] + rest[sk.RIGHT_HIP]), neck_root(rest) - (0.0, 0.0, drop_m), drop_m)
+
+
+def shoulder_drop_m(rest: np.ndarray) -> float:
+    """Some skeletons have the joints of their shoulders up at the neck, where a person's are a hand lower: sculpted
+    around
+    those joints the figure would shrug. How much lower the flesh is put, reference metres."""
+    shoulders = 0.5 * (rest[sk.LEFT_SHOULDER][2] + rest[sk.RIGHT_SHOULDER][2])
+    return float(np.clip(0.7 * (shoulders - rest[sk.HEAD][2] + SHOULDERS_UNDER_HEAD_M), 0.0, 0.055))
 
 
 def throat(body: Body, slim: float = 1.0) -> Shape:
@@ -89,14 +100,15 @@ def ribs(trunk: Trunk) -> Shape:
     cage = taper(trunk.at(0.74, 0.002), trunk.at(0.48, 0.012), breadth, 0.86 * breadth, flat=(0.74, 1.0, 0.94))
     chest = ellipsoid(trunk.at(0.78, 0.056, 0.064), (0.052, 0.072, 0.062))
     blade = ellipsoid(trunk.at(0.80, -0.042, 0.075), (0.060, 0.076, 0.10))
+    shoulder = shoulder - (0.0, 0.0, trunk.drop_m)
     root = trunk.neck + (-0.010, 0.026, -0.016)
     trapezius = taper(root, root + 0.62 * (shoulder - root) + (0, 0, 0.004), 0.046, 0.044)
     return blend(0.06, cage, *map(both_sides, (chest, blade, trapezius)))
 
 
-def yoke(body: Body, side: int) -> Shape:
+def yoke(body: Body, side: int, drop_m: float = 0.0) -> Shape:
     """What moves with the clavicle and closes the gap between rib cage and arm."""
-    shoulder = body.offset_m[sk.SHOULDERS[side]]
+    shoulder = body.offset_m[sk.SHOULDERS[side]] - (0.0, 0.0, drop_m)
     tip = shoulder + (0.0, -0.012 * outwards(side), -0.002)
     bar = taper(0.42 * shoulder + (0, 0, -0.012), tip, 0.052, 0.050, flat=(1.12, 1.0, 0.96))
     armpit = taper(0.62 * shoulder + (0, 0, -0.065), tip, 0.050, 0.046)

@@ -18,7 +18,7 @@ from engine.render.sculpture.hand import hand
 from engine.render.sculpture.head import outside_lens, skull_and_face
 from engine.render.sculpture.leg import foot_and_toes, shin, thigh
 from engine.render.sculpture.parts import outwards
-from engine.render.sculpture.trunk import abdomen, pelvis, ribs, throat, trunk_of, yoke
+from engine.render.sculpture.trunk import abdomen, pelvis, ribs, shoulder_drop_m, throat, trunk_of, yoke
 from engine.render.surface import Shape, blend, ellipsoid, near_only, placed, shifted, taper
 
 ARMS_APART_RAD, LEGS_APART_RAD = math.radians(48.0), math.radians(9.0)
@@ -52,13 +52,13 @@ def bind_pose(body: Body) -> Bind:
 
 def whole_body(body: Body, bind: Bind) -> Shape:
     """One solid in the frame of the pelvis. Mirrored exactly where the body is."""
-    trunk = trunk_of(bind.positions)
-    yokes = [_at(bind, sk.CLAVICLES[side], yoke(body, side)) for side in (sk.LEFT, sk.RIGHT)]
+    trunk = trunk_of(bind.positions, shoulder_drop_m(bind.positions))
+    yokes = [_at(bind, sk.CLAVICLES[side], yoke(body, side, trunk.drop_m)) for side in (sk.LEFT, sk.RIGHT)]
     middle = blend(0.06, *[near_only(flesh(trunk), 2.0 * NEAR_M) for flesh in (pelvis, abdomen, ribs)])
     core = blend(0.05, middle, *yokes)
     head = _at(bind, sk.HEAD, skull_and_face(body)[1])
     neck = _at(bind, sk.NECK, shifted(throat(body, 0.94), np.array((-0.006, 0.0, 0.0))))
-    limbs = [_at(bind, sk.SHOULDERS[side], _arm(body, side)) for side in (sk.LEFT, sk.RIGHT)]
+    limbs = [_at(bind, sk.SHOULDERS[side], _arm(body, side, trunk.drop_m)) for side in (sk.LEFT, sk.RIGHT)]
     legs = [_at(bind, sk.HIPS[side], _leg(body, side)) for side in (sk.LEFT, sk.RIGHT)]
     feet = [_at(bind, sk.ANKLES[side], _foot(body, side)) for side in (sk.LEFT, sk.RIGHT)]
     below = blend(0.02, *[blend(0.03, leg, foot) for leg, foot in zip(legs, feet, strict=True)])
@@ -107,12 +107,12 @@ def paint_m(body: Body, bind: Bind, points: np.ndarray) -> np.ndarray:
     return np.column_stack([dress, lens, shoes])
 
 
-def _arm(body: Body, side: int) -> Shape:
+def _arm(body: Body, side: int, drop_m: float) -> Shape:
     """Upper arm, elbow, forearm and hand, straight, in the shoulder's frame."""
     elbow, wrist = body.offset_m[sk.ELBOWS[side]], body.offset_m[sk.WRISTS[side]]
     out = outwards(side)
     point = ellipsoid(elbow + (-0.018, 0.0, -0.004), (0.020, 0.023, 0.032))
-    halves = (upper_arm(elbow, out), shifted(forearm(wrist, out), elbow))
+    halves = (upper_arm(elbow, out, drop_m), shifted(forearm(wrist, out), elbow))
     bones = blend(0.010, *[near_only(flesh, NEAR_M) for flesh in halves])
     return blend(0.024, bones, point, near_only(shifted(hand(body.fingertip_m[side], -out), elbow + wrist), NEAR_M))
 
