@@ -24,7 +24,8 @@ from engine.maths import quaternion, vector
 def apply_rules(task, pelvis_shift, controls, soft_m, posed):
     """Writes the pose that seven controls (7,) and a shift of the pelvis (3,) give. soft_m: see two_bones.soft_reach."""
     posed.made_from[:] = np.nan
-    update_pose(task, pelvis_shift, controls, soft_m, True, posed)
+    free_arms = len(posed.palms) > 0  # true, and not a constant, of which kernels would compile a variant
+    update_pose(task, pelvis_shift, controls, soft_m, free_arms, posed)
     posed.made_from[:] = np.nan
 
 
@@ -72,7 +73,7 @@ def update_pose(task, pelvis_shift, controls, soft_m, free_arms, posed):
                 )  # fmt: skip
             else:
                 palm, wrong = guard(
-                    side, controls[RECOIL], reach, swivel, False, 0.0, build, task.threat, task.choices, task.rules,
+                    side, controls[RECOIL], reach, swivel, free_arms, 0.0, build, task.threat, task.choices, task.rules,
                     bones.offset_m, start.rotations, low_rad, high_rad, posed.obstacles, rotations, positions,
                     orientations,
                 )  # fmt: skip

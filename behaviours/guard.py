@@ -90,7 +90,7 @@ def guard_freely(
     halvings = SLIDE_HALVINGS
     for step in range(SLIDES + SLIDE_HALVINGS + 1):
         palm, wrong = guard(
-            side, recoil_control, reach_control, swivel_control, True, slide_m, build, threat, choices, rules,
+            side, recoil_control, reach_control, swivel_control, slide_m >= 0.0, slide_m, build, threat, choices, rules,
             offset_m, start_rotations, low_rad, high_rad, obstacles, rotations, positions, orientations,
         )  # fmt: skip
         if step == 0 and (wrong == 0.0 or choices.wrap >= 0.5):

@@ -1,8 +1,9 @@
 """Left and right exchanged in everything that a protective pose is made from and of.
 
-A character that turns left is worked out as its mirror image that turns right, and mirrored back: so the mirrored clip with
-the mirrored threat gives the mirrored pose to the last bit. Without it, rounding that differs between left and right
-would be a search's choice between two nearly equal ways. World mirror at Y = 0; mirroring twice changes nothing.
+A character that turns left is worked out as its mirror image that turns right, and mirrored back: so the mirrored
+clip with the mirrored threat gives the mirrored pose to the last bit. Without it, rounding that differs between left
+and right would be a search's choice between two nearly equal ways. World mirror at Y = 0; mirroring twice changes
+nothing.
 """
 
 from __future__ import annotations
@@ -15,7 +16,15 @@ from behaviours.total_error import Reference
 from engine.body.skeleton import MIRRORED
 from engine.clips.mirror import FLIP_POINT, FLIP_ROTATION, FLIPPED_LIMITS, mirror_pose
 
-__all__ = ["mirror_choices", "mirror_controls", "mirror_feet", "mirror_pose", "mirror_reference", "mirror_task", "mirror_threat"]
+__all__ = [
+    "mirror_choices",
+    "mirror_controls",
+    "mirror_feet",
+    "mirror_pose",
+    "mirror_reference",
+    "mirror_task",
+    "mirror_threat",
+]
 
 CONTROLS_SWAPPED = np.array([0, 1, 2, 4, 3, 6, 5])
 SWAPPED = np.array([1, 0])

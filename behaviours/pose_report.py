@@ -1,4 +1,5 @@
-"""One protective pose on its own: a clip at a time, a threat, what came of it. The report of `brace pose`, and its picture.
+"""One protective pose on its own: a clip at a time, a threat, what came of it. The report of `brace pose`, and its
+picture.
 
 Nothing moves here: the threat is planned as a scripted one (specification A1), the pose is worked out, and that is all.
 """

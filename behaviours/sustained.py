@@ -270,6 +270,7 @@ def refer_to(task: Task, posed: Posed, com_m, controls, settings: Settings) -> R
         controls.copy(),
         weights,
         o.smoothing_m,
+        False,
         SOFT_REACH_M,
     )
 
