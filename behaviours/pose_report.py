@@ -19,9 +19,9 @@ from behaviours.rules.controls import CONTROLS
 from behaviours.settings import Settings
 from behaviours.sustained import Protection, protect
 from behaviours.threats import KINDS, Make, make_threat
-from behaviours.timing import TICK_S, time_to_contact_s, whole_ticks
+from behaviours.timing import TICK_S, facing_dot_threat, time_to_contact_s, whole_ticks
 from engine.body.kinematics import com_of, joints_of
-from engine.body.skeleton import HEAD, JOINTS, PELVIS, Body, Pose
+from engine.body.skeleton import JOINTS, PELVIS, Body, Pose
 from engine.clips.clip import Clip
 from engine.clips.playback import planted_at, sample
 from engine.maths import quaternion, vector
@@ -58,8 +58,7 @@ def pose_case(clip: Clip, case: PoseCase, settings: Settings, previous_turn_side
     make = make_threat(case.kind, case.speed_mps, case.size, size_means=case.size_means)
     now = sample(clip, case.at_s)
     heading = float(quaternion.heading(now.rotations[PELVIS]))
-    _, orientations = joints_of(clip.body, now)
-    ttc_s = _ttc_s(case, make, heading, orientations, settings)
+    ttc_s = _ttc_s(case, make, heading, settings)
     ahead, planted, landing = _look_ahead(clip, case.at_s, ttc_s, settings)
     joint, offset = aim_of(clip.body, case.target)
     aim = target_centre(joint, offset, *joints_of(clip.body, now))
@@ -74,11 +73,11 @@ def pose_case(clip: Clip, case: PoseCase, settings: Settings, previous_turn_side
     return PosedCase(clip.body, now, threat, way, found)
 
 
-def _ttc_s(case: PoseCase, make: Make, heading: float, orientations, settings: Settings) -> float:
-    """Time to contact (eq. 4.1), in whole ticks."""
+def _ttc_s(case: PoseCase, make: Make, heading: float, settings: Settings) -> float:
+    """Time to contact (eq. 4.1), in whole ticks. A character faces the way it is heading, as in a run."""
     towards = coming_from(heading, math.radians(case.azimuth_deg), math.radians(case.elevation_deg))
-    facing = quaternion.rotate(orientations[HEAD], (1.0, 0.0, 0.0))
-    return whole_ticks(time_to_contact_s(make.speed_norm, vector.inner(facing, towards), settings.timing)) * TICK_S
+    facing = facing_dot_threat(heading, towards)
+    return whole_ticks(time_to_contact_s(make.speed_norm, facing, settings.timing)) * TICK_S
 
 
 def _look_ahead(clip: Clip, at_s: float, ttc_s: float, settings: Settings) -> tuple[Pose, np.ndarray, bool]:

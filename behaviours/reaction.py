@@ -36,6 +36,7 @@ from behaviours.rules.startle import startle_pose
 from behaviours.search import choose_return
 from behaviours.settling import settled_pose
 from behaviours.sources import choose_hand_ways, foot_goals, source_pose
+from behaviours.sustained import Case
 from behaviours.timing import TICK_S, time_to_contact_s, whole_ticks
 from engine.body.kinematics import com_of, joints_of
 from engine.body.skeleton import ANKLES, Pose
@@ -192,7 +193,7 @@ def notice(world, tick):
             threat=int(r.threat[row]),
             ttc_s=ttc_s,
             startle="taken" if startle else ("too late" if c.startle[row] else "off"),
-            case=int(world[Sustained].case[row]),
+            case=Case(int(world[Sustained].case[row])).name.lower(),
         )
         if startle:
             begin_startle(world, row, tick, threat_row)

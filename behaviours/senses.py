@@ -6,7 +6,6 @@ promises; a free one is predicted, every tick, with the very function that it fl
 
 from __future__ import annotations
 
-import math
 from typing import NamedTuple
 
 import numpy as np
@@ -14,13 +13,12 @@ from numba import njit
 
 from behaviours.components import Character, Flight, Posture, Reaction, Threat
 from behaviours.perceived import AIMS, aim_of, target_centre
-from behaviours.playing import body_of
+from behaviours.playing import body_of, heading_of
 from behaviours.seams import shown
-from behaviours.timing import TICK_S, time_to_contact_s, whole_ticks
+from behaviours.timing import TICK_S, facing_dot_threat, time_to_contact_s, whole_ticks
 from engine.body.kinematics import joints_of
-from engine.body.skeleton import PELVIS
 from engine.core.schedule import Stage, system
-from engine.maths import quaternion, vector
+from engine.maths import vector
 from engine.maths.ballistics import GRAVITY_MPS2, fly
 
 GUARDED = ("head", "torso", "pelvis")  # what a free threat may be about to hit
@@ -81,9 +79,8 @@ def predict(world, row: int, threat_row: int) -> tuple[str, Encounter]:
 
 
 def facing_dot(world, row: int, towards) -> float:
-    """Cosine between the way a character faces and a direction (towards the threat), for eq. 4.1."""
-    heading = float(quaternion.heading(world[Posture].rotations[row, PELVIS]))
-    return math.cos(heading) * towards[0] + math.sin(heading) * towards[1]
+    """Cosine between the way the character in a row faces and a direction (towards the threat)."""
+    return facing_dot_threat(heading_of(world, row), towards)
 
 
 def normal_ttc_s(world, row: int, threat_row: int, velocity_mps) -> float:

@@ -24,6 +24,11 @@ def time_to_contact_s(speed_norm: float, facing_dot_threat: float, timing: Timin
     return (timing.ttc_least_s + timing.ttc_range_s * (1.0 - speed_norm)) * (1.0 + timing.ttc_side_gain * aside)
 
 
+def facing_dot_threat(heading_rad: float, towards) -> float:
+    """Cosine between the way a character faces, its heading, and a unit direction towards the threat (for eq. 4.1)."""
+    return math.cos(heading_rad) * towards[0] + math.sin(heading_rad) * towards[1]
+
+
 def whole_ticks(seconds: float) -> int:
     """The nearest number of ticks, at least one."""
     return max(1, round(seconds / TICK_S))
