@@ -22,7 +22,9 @@ from engine.maths import quaternion, vector
 
 @njit(cache=True)
 def apply_rules(task, pelvis_shift, controls, soft_m, posed):
-    """Writes the pose that seven controls (7,) and a shift of the pelvis (3,) give. soft_m: see two_bones.soft_reach."""
+    """Writes the pose that seven controls (7,) and a shift of the pelvis (3,) give. soft_m: see
+    two_bones.soft_reach.
+    """
     posed.made_from[:] = np.nan
     free_arms = len(posed.palms) > 0  # true, and not a constant, of which kernels would compile a variant
     update_pose(task, pelvis_shift, controls, soft_m, free_arms, posed)
@@ -33,15 +35,16 @@ def apply_rules(task, pelvis_shift, controls, soft_m, posed):
 def update_pose(task, pelvis_shift, controls, soft_m, free_arms, posed):
     """apply_rules for a search: what is made from the same numbers as last time is not made again.
 
-    Trunk and legs are made from the pelvis's shift, lean and turn; an arm from those, the recoil and its own reach and
-    swivel. So a difference in one arm's control costs one arm. `posed` remembers, and so belongs to one task.
+    Trunk and legs are made from the pelvis's shift, lean and turn; an arm from those, the recoil and its own reach
+    and swivel. So a difference in one arm's control costs one arm. `posed` remembers, and so belongs to one task.
 
-    Without `free_arms` the elbows stay at their swivels, whatever shoulders and trunk forbid: an elbow that swings aside as
-    far as it must moves the COM by millimetres, but with kinks that a search would be caught in.
+    Without `free_arms` the elbows stay at their swivels, whatever shoulders and trunk forbid: an elbow that swings
+    aside as far as it must moves the COM by millimetres, but with kinks that a search would be caught in.
     """
     bones, start, feet, build = task.bones, task.start, task.feet, task.build
     low_rad, high_rad, margin_rad = start.low_rad, start.high_rad, task.rules.limit_margin_rad
-    rotations, positions, orientations, made_from = posed.rotations, posed.positions, posed.orientations, posed.made_from
+    rotations, positions, orientations = posed.rotations, posed.positions, posed.orientations
+    made_from = posed.made_from
     x, y, z = pelvis_shift[0], pelvis_shift[1], pelvis_shift[2]
     same_trunk = _remember(made_from, 0, (x, y, z, controls[LEAN], controls[TURN], soft_m))
     if not same_trunk:

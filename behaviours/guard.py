@@ -1,7 +1,8 @@
-"""One guarding arm: shoulder raised, palm where block or wrap wants it, elbow at its swivel, hand facing the threat.
+"""One guarding arm: shoulder raised, palm where block or wrap wants it, elbow at its swivel, hand facing the
+threat.
 
-The arm is built anew in closed form (Tolani, Goswami, Badler 2000), not corrected from the clip's: nothing of the clip's
-arm is to be kept, and its elbow then is a hinge and keeps its limits by construction.
+The arm is built anew in closed form (Tolani, Goswami, Badler 2000), not corrected from the clip's: nothing of the
+clip's arm is to be kept, and its elbow then is a hinge and keeps its limits by construction.
 """
 
 from __future__ import annotations

@@ -131,9 +131,9 @@ def free_arm(
     clavicle, shoulder, elbow, wrist = CLAVICLES[side], SHOULDERS[side], ELBOWS[side], WRISTS[side]
     upper, low, high = quaternion.at(rotations, shoulder), vector.at(low_rad, shoulder), vector.at(high_rad, shoulder)
     mid, end = vector.at(positions, elbow), vector.at(positions, wrist)
-    if overrun_rad(low, high, margin_rad, upper) == 0.0:
-        if depth_m(mid, end, arm_radius_m, obstacles, radii_m) == 0.0:
-            return 0.0
+    beyond_rad = overrun_rad(low, high, margin_rad, upper)
+    if beyond_rad == 0.0 and depth_m(mid, end, arm_radius_m, obstacles, radii_m) == 0.0:
+        return 0.0
     limb = Limb(
         vector.at(positions, shoulder), mid, end, quaternion.at(orientations, clavicle), upper, low, high,
         NO_TURN, NO_TURN, low, high, False, side_sign(side),
@@ -149,9 +149,9 @@ def free_leg(side, offset_m, low_rad, high_rad, margin_rad, obstacles, radii_m, 
     pelvis, hip, knee, ankle = PELVIS + 0 * side, HIPS[side], KNEES[side], ANKLES[side]
     upper, low, high = quaternion.at(rotations, hip), vector.at(low_rad, hip), vector.at(high_rad, hip)
     foot_low, foot_high = vector.at(low_rad, ankle), vector.at(high_rad, ankle)
-    if overrun_rad(low, high, margin_rad, upper) == 0.0:
-        if overrun_rad(foot_low, foot_high, margin_rad, quaternion.at(rotations, ankle)) == 0.0:
-            return 0.0
+    beyond_rad = overrun_rad(low, high, margin_rad, upper)
+    if beyond_rad == 0.0 and overrun_rad(foot_low, foot_high, margin_rad, quaternion.at(rotations, ankle)) == 0.0:
+        return 0.0
     foot = quaternion.at(orientations, ankle)
     limb = Limb(
         vector.at(positions, hip), vector.at(positions, knee), vector.at(positions, ankle),

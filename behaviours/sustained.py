@@ -1,4 +1,6 @@
-"""The sustained pose (Hermens 2006, 3.3): the rules, then the search that balances it and braces it towards the threat."""
+"""The sustained pose (Hermens 2006, 3.3): the rules, then the search that balances it and braces it towards the
+threat.
+"""
 
 from __future__ import annotations
 
@@ -36,8 +38,8 @@ from behaviours.total_error import (
 )
 from engine.body.kinematics import centre_of_mass
 from engine.body.skeleton import BACK, HIPS, PELVIS, WAIST, WRISTS, Body, Pose
-from engine.body.two_bones import SOFT_REACH_M
 from engine.body.support import inside, polygon_of
+from engine.body.two_bones import SOFT_REACH_M
 from engine.clips.mirror import FLIP_POINT, mirror_body
 from engine.maths import quaternion, vector
 
@@ -164,8 +166,8 @@ def solve(
 ) -> tuple[Solution, int]:
     """Runs the solver that the settings name; the solution, and how many evaluations polishing it took.
 
-    A joint limit that is met on the way is a ridge on which BFGS ends in its line search. Least squares, which bends with
-    it, goes on from there, and then also from the start. It knows only the `squares` form.
+    A joint limit that is met on the way is a ridge on which BFGS ends in its line search. Least squares, which
+    bends with it, goes on from there, and then also from the start. It knows only the `squares` form.
     """
     s = settings.solver
     if s.method == "least_squares":
@@ -186,7 +188,9 @@ def solve(
 def solve_by_least_squares(
     task: Task, reference: Reference, start: np.ndarray, posed: Posed, settings: Settings
 ) -> Solution:
-    """The best of a few descents: from the rules pose, and from there braced with bent knees, where limits are farther off."""
+    """The best of a few descents: from the rules pose, and from there braced with bent knees, where limits are
+    farther off.
+    """
     s = settings.solver
     begins = [start]
     for share, down_m in BRACED_STARTS:
@@ -200,10 +204,12 @@ def solve_by_least_squares(
 
 
 def keep_limits(task: Task, reference: Reference, found: Solution, posed: Posed, settings: Settings) -> Solution:
-    """The solution with the planted legs inside their limits, where there is one: what they forbid is made to cost more.
+    """The solution with the planted legs inside their limits, where there is one: what they forbid is made to
+    cost more.
 
-    A weight only trades limits off against the rest; the margin that limbs keep takes up what the greatest leaves over.
-    Legs reach exactly here, as in the pose that is shown: the last millimetres of a stretched leg are degrees of its hip.
+    A weight only trades limits off against the rest; the margin that limbs keep takes up what the greatest leaves
+    over. Legs reach exactly here, as in the pose that is shown: the last millimetres of a stretched leg are degrees
+    of its hip.
     """
     limits, tolerance_m = TERMS.index("limits"), settings.balance.foot_tolerance_m
     best, least = found, _legs_trouble(task, found.variables, posed, tolerance_m)
@@ -224,7 +230,9 @@ def keep_limits(task: Task, reference: Reference, found: Solution, posed: Posed,
 def weigh_arms(
     task: Task, reference: Reference, found: Solution, form: int, posed: Posed, settings: Settings
 ) -> Solution:
-    """The solution with the COM where it is wanted once the elbows have swung aside: the search is told how far they take it."""
+    """The solution with the COM where it is wanted once the elbows have swung aside: the search is told how far
+    they take it.
+    """
     if FORMS[form] != "squares":
         return found
     controls = np.clip(found.variables[3:], 0.0, 1.0)
@@ -277,10 +285,11 @@ def refer_to(task: Task, posed: Posed, com_m, controls, settings: Settings) -> R
 
 @njit(cache=True)
 def pose_exactly(task, shift, controls, posed, tolerance_m):
-    """Writes the pose with planted feet where they are planted; returns how far the pelvis had to give (3,), metres.
+    """Writes the pose with planted feet where they are planted; returns how far the pelvis had to give (3,),
+    metres.
 
-    The pelvis is lowered by what is missing, which leaves the COM over the same ground. Only where the foot lies farther
-    to the side than the leg is long is it drawn towards it.
+    The pelvis is lowered by what is missing, which leaves the COM over the same ground. Only where the foot lies
+    farther to the side than the leg is long is it drawn towards it.
     """
     given, most = np.zeros(3), np.zeros(3)
     apply_rules(task, shift, controls, EXACT, posed)
@@ -290,7 +299,8 @@ def pose_exactly(task, shift, controls, posed, tolerance_m):
         for side in range(2):
             if task.feet.held[side] and posed.foot_miss_m[side] > tolerance_m:
                 short += 1
-                x, y, z = _missing(vector.at(posed.positions, HIPS[side]), vector.at(task.feet.ankle_m, side), task.build.leg_m[side])
+                hip, ankle = vector.at(posed.positions, HIPS[side]), vector.at(task.feet.ankle_m, side)
+                x, y, z = _missing(hip, ankle, task.build.leg_m[side])
                 most[0] += x
                 most[1] += y
                 most[2] = min(most[2], z)
@@ -324,7 +334,9 @@ def _missing(hip, ankle, leg_m):
 
 
 def case_of(inside_before: bool, inside_after: bool) -> Case:
-    """Names the outcome of fig. 3.10. The COM moves towards the threat only, so out after in is out on the threat's side."""
+    """Names the outcome of fig. 3.10. The COM moves towards the threat only, so out after in is out on the
+    threat's side.
+    """
     if inside_after:
         return Case.BALANCED if inside_before else Case.MENDED
     return Case.BRACED_OUT if inside_before else Case.UNRECOVERED

@@ -1,10 +1,11 @@
 """The total error that the sustained pose minimises (Hermens 2006, eq. 3.2 and 3.3), in three forms.
 
-Ten variables: the pelvis's shift (3, metres) and the seven controls. Every term but the first is the distance from the pose that
-the rules alone gave. All three forms are made from one vector of residuals, grouped by term.
+Ten variables: the pelvis's shift (3, metres) and the seven controls. Every term but the first is the distance from
+the pose that the rules alone gave. All three forms are made from one vector of residuals, grouped by term.
 
-squares (the default): sum of w^2 d^2. It is smooth, and a least-squares problem. literal: the thesis's plain sum of norms; it
-starts on the kink of every term at once, and BFGS makes no step from there. smoothed: the same with each norm's tip rounded.
+squares (the default): sum of w^2 d^2. It is smooth, and a least-squares problem. literal: the thesis's plain sum of
+norms; it starts on the kink of every term at once, and BFGS makes no step from there. smoothed: the same with each
+norm's tip rounded.
 """
 
 from __future__ import annotations
@@ -50,8 +51,8 @@ class Reference(NamedTuple):
 def residuals_into(task, reference, variables, controls, posed, residuals):
     """Writes the unweighted residuals (40,), and the pose that the variables give. controls (7,) is scratch.
 
-    A control outside [0, 1] acts as if it stood on the bound; how far it is outside is a residual of its own. `posed` may
-    have been used before, but for the same task only: see apply_rules.update_pose.
+    A control outside [0, 1] acts as if it stood on the bound; how far it is outside is a residual of its own.
+    `posed` may have been used before, but for the same task only: see apply_rules.update_pose.
     """
     for i in range(CONTROL_COUNT):
         controls[i] = min(1.0, max(0.0, variables[3 + i]))
@@ -123,7 +124,9 @@ def total_error(residuals, reference, form):
 
 
 def term_errors(residuals: np.ndarray) -> dict[str, float]:
-    """Each term as a plain distance: metres; for the torso the root sum of squares of sin(angle / 2); for controls 0 ... 1."""
+    """Each term as a plain distance: metres; for the torso the root sum of squares of sin(angle / 2); for
+    controls 0 ... 1.
+    """
     return {
         term: float(np.sqrt(np.sum(residuals[BEGIN[i] : BEGIN[i + 1]] ** 2))) for i, term in enumerate(TERMS)
     }
