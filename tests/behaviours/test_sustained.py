@@ -9,11 +9,12 @@ import numpy as np
 import pytest
 from scipy.optimize import minimize as scipy_minimize
 
+from behaviours.balance_search import solve, solve_by_least_squares
 from behaviours.pose_report import PoseCase, pose_case
 from behaviours.rules.controls import CONTROL_COUNT
 from behaviours.settings import Settings, override
 from behaviours.solve_pose import solve_bfgs
-from behaviours.sustained import Case, case_of, solve, solve_by_least_squares
+from behaviours.sustained import Case, case_of
 from behaviours.task import new_posed
 from behaviours.total_error import FORMS, RESIDUALS, SQUARES, residuals_into, total_error
 from engine.body.kinematics import com_of, joints_of

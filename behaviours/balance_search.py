@@ -1,0 +1,115 @@
+"""The search for the balanced, braced pose (Hermens 2006, 3.3): BFGS, polished; then what limits and elbows ask for.
+
+The kernels are in `solve_pose`; here is in which order they are tried, and when that is enough.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from behaviours import minimise
+from behaviours.apply_rules import apply_rules, update_pose
+from behaviours.exact_feet import EXACT, pose_exactly
+from behaviours.settings import Settings
+from behaviours.solve_pose import Solution, solve_bfgs, solve_least_squares
+from behaviours.task import Posed, Task
+from behaviours.total_error import FORMS, TERMS, Reference
+from engine.body.kinematics import centre_of_mass
+
+DEARER = (5.0, 25.0, 125.0)  # rounds of making limits cost more, where legs still overstep them
+BRACED_STARTS = ((0.0, 0.04), (1.0, 0.05))  # shares of the way that the COM has to go; metres down
+ARMS_MATTER_M = 5e-4  # of COM, when elbows swing aside
+
+
+def solve(
+    task: Task, reference: Reference, form: int, start: np.ndarray, posed: Posed, settings: Settings
+) -> tuple[Solution, int]:
+    """Runs the solver that the settings name; the solution, and how many evaluations polishing it took.
+
+    A joint limit that is met on the way is a ridge on which BFGS ends in its line search. Least squares, which
+    bends with it, goes on from there, and then also from the start. It knows only the `squares` form.
+    """
+    s = settings.solver
+    if s.method == "least_squares":
+        return solve_by_least_squares(task, reference, start, posed, settings), 0
+    found = solve_bfgs(task, reference, form, start, posed, s.offset, s.tolerance, s.iterations, s.restarts)
+    if not s.polish or FORMS[form] != "squares":
+        return found, 0
+    polished = solve_least_squares(task, reference, found.variables, posed, s.polish_tolerance, s.iterations)
+    evaluations = polished.evaluations
+    if found.stop == minimise.LINE_SEARCH:
+        again = solve_by_least_squares(task, reference, start, posed, settings)
+        evaluations += again.evaluations
+        polished = min(polished, again, key=lambda end: end.value)
+    best = min(found, polished, key=lambda end: end.value)
+    return found._replace(variables=best.variables, value=best.value), int(evaluations)
+
+
+def solve_by_least_squares(
+    task: Task, reference: Reference, start: np.ndarray, posed: Posed, settings: Settings
+) -> Solution:
+    """The best of a few descents: from the rules pose, and from there braced with bent knees, where limits are
+    farther off.
+    """
+    s = settings.solver
+    begins = [start]
+    for share, down_m in BRACED_STARTS:
+        braced = start.copy()
+        braced[:2] += share * (np.array(reference.com_wanted_m) - reference.com_rules_m)
+        braced[2] -= down_m
+        begins.append(braced)
+    ends = [solve_least_squares(task, reference, x, posed, s.polish_tolerance, s.iterations) for x in begins]
+    best = min(ends, key=lambda end: end.value)
+    return best._replace(evaluations=sum(end.evaluations for end in ends), value_initial=ends[0].value_initial)
+
+
+def keep_limits(task: Task, reference: Reference, found: Solution, posed: Posed, settings: Settings) -> Solution:
+    """The solution with the planted legs inside their limits, where there is one: what they forbid is made to
+    cost more.
+
+    A weight only trades limits off against the rest; the margin that limbs keep takes up what the greatest leaves
+    over. Legs reach exactly here, as in the pose that is shown: the last millimetres of a stretched leg are degrees
+    of its hip.
+    """
+    limits, tolerance_m = TERMS.index("limits"), settings.balance.foot_tolerance_m
+    best, least = found, _legs_trouble(task, found.variables, posed, tolerance_m)
+    begin = found.variables
+    for dearer in DEARER:
+        if least < task.rules.limit_margin_rad:
+            break
+        weights = list(reference.weights)
+        weights[limits] *= dearer
+        strict = reference._replace(weights=tuple(weights), soft_m=EXACT)
+        begin = solve_least_squares(task, strict, begin, posed, settings.solver.polish_tolerance, 20).variables
+        wrong = _legs_trouble(task, begin, posed, tolerance_m)
+        if wrong < 0.9 * least:
+            best, least = found._replace(variables=begin), wrong
+    return best
+
+
+def weigh_arms(
+    task: Task, reference: Reference, found: Solution, form: int, posed: Posed, settings: Settings
+) -> Solution:
+    """The solution with the COM where it is wanted once the elbows have swung aside: the search is told how far
+    they take it.
+    """
+    if FORMS[form] != "squares":
+        return found
+    controls = np.clip(found.variables[3:], 0.0, 1.0)
+    posed.made_from[:] = np.nan
+    update_pose(task, found.variables, controls, reference.soft_m, False, posed)
+    before = np.array(centre_of_mass(task.bones, posed.positions, posed.orientations))
+    apply_rules(task, found.variables, controls, reference.soft_m, posed)
+    taken_m = (np.array(centre_of_mass(task.bones, posed.positions, posed.orientations)) - before)[:2]
+    if np.abs(taken_m).max() < ARMS_MATTER_M:
+        return found
+    wanted = np.array(reference.com_wanted_m) - taken_m
+    aside = reference._replace(com_wanted_m=(float(wanted[0]), float(wanted[1])))
+    again = solve_least_squares(task, aside, found.variables, posed, settings.solver.polish_tolerance, 20)
+    return found._replace(variables=again.variables)
+
+
+def _legs_trouble(task: Task, variables: np.ndarray, posed: Posed, tolerance_m: float) -> float:
+    """What limits forbid the planted legs in the pose that would be shown, radians."""
+    pose_exactly(task, variables[:3].copy(), np.clip(variables[3:], 0.0, 1.0), posed, tolerance_m)
+    return float(posed.trouble[:2].max())
