@@ -132,20 +132,17 @@ def minimise_cycles(body, plan, wishes, unknowns, bounds, search, figure):
         cycles += 1
 
 
-@njit(cache=True)
-def solve_torso(body, plan, wishes, unknowns, search, figure, found):
-    """Finds the unknowns (6,), in place, from where they are; assembles the figure, balanced, its arms within their
-    limits.
+def solve_torso(body, plan, wishes, unknowns, search, figure, found) -> Outcome:
+    """Finds the unknowns (6,), in place, from where they are; assembles the figure, balanced, arms within their limits.
 
-    found (3, 2), written for the left and right wrist: see the rows of `wrists`. Returns an Outcome.
+    found (3, 2), written for the left and right wrist: see the rows of `wrists`. Not a kernel, but what calls the
+    three: one that held them all would be compiled with every line of theirs once more.
     """
     bounds = torso.amplitude_bounds(body, plan.classes, plan.opposed)
-    for u in range(len(unknowns)):
-        unknowns[u] = min(max(unknowns[u], bounds[u, 0]), bounds[u, 1])
+    np.clip(unknowns, bounds[:, 0], bounds[:, 1], out=unknowns)
     value, cycles, evaluations = minimise_cycles(body, plan, wishes, unknowns, bounds, search, figure)
-    error = wrists.finish(body, plan, unknowns, search, figure, found)
-    yields = 0
-    if wrists.greatest_lack_m(body, plan, figure, found) > 0.0:
+    error, yields = wrists.finish(body, plan, unknowns, search, figure, found), 0
+    if plan.reaching.any() and wrists.greatest_lack_m(body, plan, figure, found) > 0.0:
         yields, more, error = give_way(body, plan, wishes, unknowns, bounds, search, figure, found)
         evaluations += more
     return Outcome(cycles, evaluations, value, yields, error)

@@ -62,15 +62,6 @@ def reach_targets(body, plan, figure, wrists, stay):
 
 
 @njit(cache=True)
-def too_far_m(body, plan, way, positions, side):
-    """By how much a shoulder, carried along a way (`balance.settle`), is too far from its target for a comfortable
-    arm.
-    """
-    away = vector.distance(balance.carried(way, positions[SHOULDERS[side]]), plan.wrist_m[side])
-    return away - COMFORTABLE * arms.arm_length_m(body, side)
-
-
-@njit(cache=True)
 def greatest_lack_m(body, plan, figure, wrists):
     """What a finished figure lacks: how much too far the worse shoulder is and how far its arm is beyond its limits,
     as metres.
@@ -100,7 +91,8 @@ def lacks_at(body, plan, unknowns, search, figure, wrists, lacks):
         plan.arm[side, arms.SWIVEL] = wanted[side]
         lacks[side] = -1.0
         if plan.reaching[side]:
-            lacks[side] = too_far_m(body, plan, way, figure.positions, side)
+            away = vector.distance(balance.carried(way, figure.positions[SHOULDERS[side]]), plan.wrist_m[side])
+            lacks[side] = away - COMFORTABLE * arms.arm_length_m(body, side)
             strain = arms.strain_rad(body, figure.rotations, side)
             if strain > arms.ROUNDING_RAD:
                 lacks[side] = max(lacks[side], 0.0) + STRAIN_M * strain

@@ -63,7 +63,7 @@ def _newton(task, unknowns):
     """Gauss-Newton steps, each shortened until it gains. Returns (steps, evaluations, whether they have settled)."""
     before, step = unknowns.copy(), np.empty(len(unknowns))
     lacks, new_lacks, slopes = np.empty(2), np.empty(2), np.zeros((2, len(unknowns)))
-    value, new_value, evaluations = _weigh_finished(task, unknowns, lacks), 0.0, 1
+    value, new_value, evaluations = _weigh(task, unknowns, lacks, True), 0.0, 1
     for steps in range(1, MOST_STEPS + 1):
         evaluations += _slopes_at(task, unknowns, lacks, slopes)
         before[:] = unknowns
@@ -71,7 +71,7 @@ def _newton(task, unknowns):
         slope, share = _slope_along(task, unknowns, lacks, slopes, step), 1.0
         for _ in range(MOST_SHORTER + 1):
             unknowns[:] = before + share * step
-            new_value, evaluations = _weigh_finished(task, unknowns, new_lacks), evaluations + 1
+            new_value, evaluations = _weigh(task, unknowns, new_lacks, True), evaluations + 1
             if new_value < value:
                 break
             # the least point of the parabola through what is known along the step
@@ -93,27 +93,23 @@ def _search_lines(task, unknowns):
     evaluations.
     """
     lacks, line, evaluations = np.empty(2), brent.new_line(), 1
-    value = _weigh_finished(task, unknowns, lacks)
+    value = _weigh(task, unknowns, lacks, True)
     for u in range(len(unknowns)):
         far = 1.0 / np.sqrt(task.stiffness[u])
         brent.begin(line, unknowns[u], value, LINE_STEP * far, task.bounds[u, 0], task.bounds[u, 1])
         while not brent.finished(line):
             unknowns[u] = line.numbers[brent.TRIAL]
-            brent.tell(line, _weigh(task, unknowns, lacks), LINE_TOLERANCE * far)
+            brent.tell(line, _weigh(task, unknowns, lacks, False), LINE_TOLERANCE * far)
         unknowns[u], value = brent.best(line)
         evaluations += line.counts[1]
     return evaluations
 
 
 @njit(cache=True)
-def _weigh_finished(task, unknowns, lacks):
-    """What is minimised, from a figure balanced anew; writes what the wrists lack."""
-    finish(task.body, task.plan, unknowns, task.search, task.figure, task.wrists)
-    return _weigh(task, unknowns, lacks)
-
-
-@njit(cache=True)
-def _weigh(task, unknowns, lacks):
+def _weigh(task, unknowns, lacks, anew):
+    """What is minimised; writes what the wrists lack. anew: from a figure finished and balanced with these unknowns."""
+    if anew:
+        finish(task.body, task.plan, unknowns, task.search, task.figure, task.wrists)
     lacks_at(task.body, task.plan, unknowns, task.search, task.figure, task.wrists, lacks)
     total = LACK_WEIGHT * (max(lacks[0], 0.0) ** 2 + max(lacks[1], 0.0) ** 2)
     for u in range(len(unknowns)):
