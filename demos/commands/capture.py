@@ -25,9 +25,13 @@ def register(subparsers) -> None:
     parser.add_argument("--columns", type=int, metavar="N", help="pictures in a row of a filmstrip (all of them)")
     parser.add_argument("--from", type=float, dest="from_s", metavar="S", help="filmstrip: from this second on")
     parser.add_argument("--to", type=float, dest="to_s", metavar="S", help="filmstrip: up to this second")
-    parser.add_argument("--depth", metavar="FOLDER", help="beside a film: distances, 16 bit PNGs, millimetres, 0 nothing")
+    parser.add_argument(
+        "--depth", metavar="FOLDER", help="beside a film: distances, 16 bit PNGs, millimetres, 0 nothing"
+    )
     parser.add_argument("--mask", metavar="FOLDER", help="beside a film: whose each pixel is, 8 bit PNGs")
-    parser.add_argument("--tracks", metavar="FILE.npz", help="beside a film: joints and balls, in space and on the pictures")
+    parser.add_argument(
+        "--tracks", metavar="FILE.npz", help="beside a film: joints and balls, in space and on the pictures"
+    )
     add_filming(parser, size="")
     parser.set_defaults(run=run)
 
