@@ -173,9 +173,11 @@ def strike(world, row: int, ball: int, hit: impact.Hit, tick: int) -> None:
     if impulse is None:
         return
     size_Ns = vector.length(impulse.impulse_Ns)
-    hard = size_Ns >= response.least_Ns and (simulated or impulse.approach_mps >= response.least_mps)
+    # whoever walks or gets up into a ball that lies there pushes it: only a ball that comes moves anybody
+    comes_mps = -vector.inner(thrown.velocity_mps, hit.normal)
+    hard = size_Ns >= response.least_Ns and (simulated or comes_mps >= response.least_mps)
     at_s = (tick - 1 + hit.share) * TICK_S
-    if hard or impulse.approach_mps >= WORTH_SAYING_MPS:
+    if impulse.approach_mps >= WORTH_SAYING_MPS:
         world.emit(
             "contact" if hard else "touch",
             world.entity(row),
