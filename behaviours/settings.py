@@ -31,17 +31,6 @@ def _xyz_deg(x: float, y: float, z: float) -> Triple:
     return (radians(x), radians(y), radians(z))
 
 
-class Volleyball(NamedTuple):
-    """The ball of the thesis's examples (3.1), and what its speeds mean to the rules."""
-
-    radius_m: Annotated[float, Constant("m", "A1", "radius of a volleyball")] = 0.105
-    mass_kg: Annotated[float, Constant("kg", "A1", "mass of a volleyball")] = 0.27
-    speed_low_mps: Annotated[float, Constant("m/s", "3.1", "slowest spike: rule speed 0")] = 22.8
-    speed_high_mps: Annotated[float, Constant("m/s", "3.1", "fastest spike: rule speed 1")] = 29.7
-    size_low: Annotated[float, Constant("1", "3.2.1", "abstract size that sets the controls to 0")] = 0.0
-    size_high: Annotated[float, Constant("1", "3.2.1", "abstract size that sets the controls to 1")] = 1.0
-
-
 class LeanTurn(NamedTuple):
     """Lean and turn away (3.2.2, 3.2.3): greatest rotations of the upper half of table 3.2."""
 
@@ -283,7 +272,6 @@ class Search(NamedTuple):
 class Settings(NamedTuple):
     """All of it. Immutable: `override` gives a changed copy."""
 
-    volleyball: Volleyball = Volleyball()
     lean_turn: LeanTurn = LeanTurn()
     recoil: Recoil = Recoil()
     block: Block = Block()
