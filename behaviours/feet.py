@@ -12,8 +12,8 @@ from typing import NamedTuple
 import numpy as np
 from numba import njit
 
-from behaviours.blending import FootGoals
 from behaviours.components import FootMode
+from behaviours.held_feet import FootGoals
 from behaviours.timing import arc, ease
 from engine.body.kinematics import joints_of
 from engine.body.skeleton import ANKLES, TOES

@@ -12,7 +12,7 @@ from __future__ import annotations
 
 from behaviours import feet as foot_plan
 from behaviours import seams
-from behaviours.blending import blend_end, hold_feet, knee_swivels_between, leg_lengths, primary_support
+from behaviours.blending import blend_end, knee_swivels_between, primary_support
 from behaviours.components import (
     NOBODY,
     Blend,
@@ -29,6 +29,7 @@ from behaviours.components import (
     Sustained,
     Threat,
 )
+from behaviours.held_feet import hold_feet, leg_lengths
 from behaviours.playing import body_of, capsules_of, clip_pose, perception_clip_s, planted_in_clip
 from behaviours.protection import perceived_threat, protect_from
 from behaviours.recovery import begin_recovery, begin_return, has_fallen, resume_clip

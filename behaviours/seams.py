@@ -12,8 +12,8 @@ from typing import NamedTuple
 import numpy as np
 
 from behaviours import inertialise
-from behaviours.blending import FootGoals, legs_to
 from behaviours.components import Posture, Residual
+from behaviours.held_feet import FootGoals, legs_to
 from behaviours.timing import TICK_S
 from engine.body.kinematics import joints_of
 from engine.body.skeleton import ANKLES, TOES, Body, Pose

@@ -9,7 +9,6 @@ from numba import njit
 
 from behaviours import feet as foot_plan
 from behaviours import seams
-from behaviours.blending import LEG_SOFT_M, drop_beyond_own, legs_to
 from behaviours.components import (
     Blend,
     Blow,
@@ -23,6 +22,7 @@ from behaviours.components import (
     Residual,
     Sustained,
 )
+from behaviours.held_feet import LEG_SOFT_M, drop_beyond_own, legs_to
 from behaviours.inertialise import add_remaining, nothing_left, remaining, remaining2, turned_by
 from behaviours.playing import body_of, clip_time_s, planted_in_clip
 from behaviours.sources import foot_goals, source_pose

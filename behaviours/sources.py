@@ -9,9 +9,11 @@ from __future__ import annotations
 
 import numpy as np
 
-from behaviours.blending import FootGoals, blend_end, blend_into, choose_arcs
+from behaviours.blending import blend_end, blend_into
 from behaviours.components import NOBODY, Blend, Character, Feet, Phase, Posture, Ragdoll, Reaction
 from behaviours.feet import goals_of
+from behaviours.hand_ways import choose_arcs
+from behaviours.held_feet import FootGoals
 from behaviours.lying import blend_lying
 from behaviours.playing import body_of, capsules_of, clip_pose, clip_time_s
 from behaviours.timing import TICK_S, ease, overshoot, whole_ticks
@@ -91,7 +93,7 @@ def _between(world, row, tick, start, end, weight, arcs) -> tuple[Pose, tuple[fl
 
 
 def choose_hand_ways(world, row: int, start: Pose, end: Pose) -> None:
-    """Decides, once for a blend, how each hand goes from end to end; see `behaviours.blending.choose_arcs`."""
+    """Decides, once for a blend, how each hand goes from end to end; see `behaviours.hand_ways.choose_arcs`."""
     body, shape, b = body_of(world, row), capsules_of(world, row), world[Blend]
     b.arcs[row] = STRAIGHT
     if b.support[row] == NOBODY:

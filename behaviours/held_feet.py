@@ -1,0 +1,105 @@
+"""Feet that stay where they are bound while the body above moves (thesis 4.3): leg IK, and a pelvis that sinks."""
+
+from __future__ import annotations
+
+import math
+from typing import NamedTuple
+
+import numpy as np
+from numba import njit
+
+from behaviours.timing import ease
+from engine.body.kinematics import joints_into
+from engine.body.limb_ik import apply_leg
+from engine.body.skeleton import ANKLES, HIPS, JOINT_COUNT, KNEES, TOES
+from engine.body.two_bones import soft_reach
+from engine.maths import vector
+
+LEG_SOFT_M = 0.010  # a leg straightens over this length, instead of snapping straight
+LYING_LEG, STANDING_LEG = 0.2, 0.5  # hip over ankle in shares of the leg: it lies, or it may be standing
+LEG_SPARE_M = 0.0005  # and stays this much short of it, but where its own motion has it straighter
+
+
+class FootGoals(NamedTuple):
+    """Where the two feet are to be while the rest of the body blends."""
+
+    ankle_m: np.ndarray  # (2, 3) world
+    turned: np.ndarray  # (2, 4) ankle orientation, world
+    toe: np.ndarray  # (2, 4) toe rotation, in the ankle's frame
+    bound: np.ndarray  # (2,) bool: False lets that foot go with the pose
+    bears: np.ndarray  # (2,) 0 to 1: how far the body goes down for that foot; one in the air is left behind instead
+
+
+@njit(cache=True)
+def leg_lengths(positions):
+    """(left, right): from hip to ankle, metres."""
+    return (
+        vector.distance(positions[HIPS[0]], positions[ANKLES[0]]),
+        vector.distance(positions[HIPS[1]], positions[ANKLES[1]]),
+    )
+
+
+@njit(cache=True)
+def legs_to(body, root_m, rotations, ankle_m):
+    """(left, right): how far it is from a pose's hips to two places (2, 3), metres."""
+    positions = np.empty((JOINT_COUNT, 3))
+    joints_into(body.offset_m, root_m, rotations, positions, np.empty((JOINT_COUNT, 4)))
+    return vector.distance(positions[HIPS[0]], ankle_m[0]), vector.distance(positions[HIPS[1]], ankle_m[1])
+
+
+@njit(cache=True)
+def bend_toe(toe, rotations, side):
+    """Gives a toe its planned rotation (2, 4), in place; the leg's IK carries it into the world."""
+    for k in range(4):
+        rotations[TOES[side], k] = toe[side, k]
+
+
+@njit(cache=True)
+def hold_feet(body, goals, own_lengths, knee_swivels, root_m, rotations, positions, orientations):
+    """Leg IK onto the goals of both feet; lowers the pelvis first where a goal is out of a leg's reach. In place.
+
+    `own_lengths` (2,): how long the legs would be without any goal, see `drop_beyond_own`. `knee_swivels` (2,)
+    radians, as `engine.body.limb_ik.leg_swivel` measures them.
+    """
+    drop = 0.0
+    for side in range(2):
+        if goals.bound[side]:
+            need = drop_beyond_own(body, positions[HIPS[side]], goals.ankle_m[side], side, own_lengths[side])
+            drop = max(drop, goals.bears[side] * need)
+    if drop > 0.0:
+        root_m[2] -= drop
+        for j in range(JOINT_COUNT):
+            positions[j, 2] -= drop
+    for side in range(2):
+        if goals.bound[side]:
+            bend_toe(goals.toe, rotations, side)
+            apply_leg(
+                body,
+                rotations,
+                positions,
+                orientations,
+                side,
+                goals.ankle_m[side],
+                goals.turned[side],
+                knee_swivels[side],
+                LEG_SOFT_M * (1.0 - goals.bears[side]),
+            )
+
+
+@njit(cache=True)
+def drop_beyond_own(body, hip_m, ankle_m, side, own_length_m):
+    """How far the hip has to sink to keep the ankle in the leg's reach, metres.
+
+    It begins before the leg is straight and never lets it get quite there, so that the knee does not snap; a leg that
+    is as long as its own motion has it asks for nothing, however straight that is. Where the foot stands farther off
+    sideways than the leg is long, sinking helps no further: as far as it does. A leg that lies bears nothing, and no
+    sinking could help it.
+    """
+    full = vector.length(body.offset_m[KNEES[side]]) + vector.length(body.offset_m[ANKLES[side]])
+    wanted = vector.distance(hip_m, ankle_m)
+    reach = soft_reach(wanted, own_length_m, max(full - LEG_SPARE_M, own_length_m), LEG_SOFT_M)
+    if reach >= wanted:
+        return 0.0
+    across = math.hypot(hip_m[0] - ankle_m[0], hip_m[1] - ankle_m[1])
+    upright = ease(((hip_m[2] - ankle_m[2]) / full - LYING_LEG) / (STANDING_LEG - LYING_LEG))
+    return upright * max(0.0, hip_m[2] - ankle_m[2] - math.sqrt(max(reach * reach - across * across, 0.0)))
