@@ -34,6 +34,7 @@ VALUE, VALUE_AHEAD, SLOPE, STEP, LAST_STEP, LAST_VALUE, DECREASE, ROUND_VALUE = 
 
 ENOUGH = 1e-4  # share of the promised decrease that a step must deliver
 LONGEST_STEP = 0.5  # no single step moves farther than this, in the units of the variables
+LEAST_CURVATURE = 1e-6  # of a sum of squares along any axis, so that it can be inverted
 SHORTEST_STEP = 1e-7  # a step that would move every variable less than this ends the line search
 
 
@@ -68,6 +69,34 @@ def new_search(start):
     )
     _forget_curvature(search)
     return search
+
+
+@njit(cache=True)
+def begin_with(search, slopes):
+    """Gives a fresh search the curvature of a sum of squares, from the slopes (n, m) of its weighted residuals.
+
+    Inverts 2 J J' + a little of the unit matrix, by Gauss and Jordan: it is positive, so no pivots have to be sought.
+    To be called before the last derivative of the first gradient is told.
+    """
+    n = len(search.point)
+    left, right = np.zeros((n, n)), search.curvature
+    right[:] = 0.0
+    for i in range(n):
+        right[i, i] = 1.0
+        left[i, i] = LEAST_CURVATURE
+        for j in range(n):
+            for k in range(slopes.shape[1]):
+                left[i, j] += 2.0 * slopes[i, k] * slopes[j, k]
+    for i in range(n):
+        scale = 1.0 / left[i, i]
+        left[i] *= scale
+        right[i] *= scale
+        for row in range(n):
+            if row != i:
+                share = left[row, i]
+                left[row] -= share * left[i]
+                right[row] -= share * right[i]
+    search.counts[FRESH] = 0
 
 
 @njit(cache=True)
