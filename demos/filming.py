@@ -12,13 +12,13 @@ import numpy as np
 from behaviours.components import Character, Phase, Reaction
 from behaviours.scenario import Scenario
 from demos.frames import frames_of
-from demos.stage import pelvis_m, scene_of
+from demos.stage import floor_under, pelvis_m, scene_of
 from engine.core.clock import TICK_RATE_HZ
 from engine.core.errors import BadInput
 from engine.render.camera import Camera, follow, orbit_camera
 from engine.render.context import make_context
 from engine.render.renderer import Renderer
-from engine.render.scene import FloorStyle, Scene
+from engine.render.scene import Scene
 
 # where the camera stands about the character: azimuth from the way it faces at first, elevation, distance
 CAMERAS = {
@@ -56,7 +56,7 @@ def moments(world, advance: Callable[[], None], ticks: int, shot: Shot) -> Itera
     """Steps a world through that many ticks and gives what is to be seen at every frame."""
     for alpha in frames_of(world, advance, ticks, shot.fps):
         now = moment(world, alpha, shot.ghosts)
-        now.scene.floor = FloorStyle(shot.floor)
+        now.scene.floor = floor_under(now.scene, shot.floor)
         yield now
 
 

@@ -14,7 +14,7 @@ import numpy as np
 from behaviours.components import Character, Phase, Posture, Reaction
 from behaviours.playing import body_of
 from behaviours.simulation import Simulation, apply_command
-from demos.stage import GHOSTS, pelvis_m, scene_of, shown_pose
+from demos.stage import GHOSTS, floor_under, pelvis_m, scene_of, shown_pose
 from engine.body.capsules import body_capsules, capsules_at
 from engine.body.kinematics import joints_of
 from engine.core.clock import TICK_RATE_HZ, Clock
@@ -82,7 +82,7 @@ class Play:
 
     def scene(self) -> Scene:
         scene = scene_of(self.world, 1.0 if self.clock.paused else self.clock.alpha, self.ghosts)
-        scene.floor = self.floor
+        scene.floor = floor_under(scene, self.floor.style)
         scene.captions.append(("top-left", self._status()))
         if self.help:
             scene.captions.append(("bottom-left", "\n".join(HELP)))

@@ -39,6 +39,7 @@ PHASE_COLOURS = {
     Phase.RECOVER_BLEND: BLEND_GREY,
     Phase.RECOVER_RETURN: BLEND_GREY,
 }
+HALL_M = (18.0, 11.0)  # from its middle: farther out, somebody is as good as in the wall
 PROTECTING = (Phase.STARTLE, Phase.PROTECT, Phase.HOLD, Phase.RESPOND)
 
 
@@ -58,6 +59,12 @@ def scene_of(world, alpha: float = 1.0, ghosts: Collection[str] = ()) -> Scene:
                 scene.figures.append(Figure(body, *joints_of(body, ghost), colour, GHOST_ALPHA))
     scene.balls.extend(_balls(world, alpha))
     return scene
+
+
+def floor_under(scene: Scene, style: str) -> FloorStyle:
+    """The floor asked for; plain ground once somebody has walked on out of the hall, which has walls."""
+    outside = any((np.abs(figure.positions[0, :2]) > HALL_M).any() for figure in scene.figures)
+    return FloorStyle("plain" if style == "gym" and outside else style)
 
 
 def shown_pose(world, row: int, alpha: float = 1.0) -> Pose:

@@ -1,6 +1,5 @@
 """Pictures from the command line, without any display."""
 
-
 import numpy as np
 import pytest
 from PIL import Image
@@ -8,8 +7,10 @@ from PIL import Image
 from behaviours.scenario import parse_scenario
 from demos.cli import main
 from demos.filming import CAMERAS, Moment, Shot, choose, parse_camera, parse_ghosts, parse_size, placed_for
+from demos.stage import floor_under
+from engine.body.anthropometry import standard_body
 from engine.core.errors import BadInput
-from engine.render.scene import Scene
+from engine.render.scene import Figure, Scene
 
 SMALL = ("--set", "duration_s=0.5", "--size", "64x48", "--fps", "12")
 
@@ -130,3 +131,12 @@ def test_the_moments_of_a_strip():
     assert 30 / 16 in times  # the first moment of the blow
     assert [now.time_s for now in choose(seen, 3, 0.0, 0.25)] == [0.0, 0.125, 0.25]
     assert len(choose(seen, 500, None, None)) == 45
+
+
+def test_who_walks_out_of_the_hall_walks_on_plain_ground():
+    body = standard_body()
+    inside, outside = (np.full((21, 3), x) for x in (2.0, 20.0))
+    turned = np.tile([1.0, 0.0, 0.0, 0.0], (21, 1))
+    assert floor_under(Scene(figures=[Figure(body, inside, turned)]), "gym").style == "gym"
+    assert floor_under(Scene(figures=[Figure(body, outside, turned)]), "gym").style == "plain"
+    assert floor_under(Scene(), "plain").style == "plain"
