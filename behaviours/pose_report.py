@@ -48,6 +48,7 @@ class PosedCase(NamedTuple):
 
     body: Body
     clip: Pose  # at perception
+    ahead: Pose  # where the pelvis and a foot in the air come from
     threat: PerceivedThreat
     approach: Approach
     protection: Protection
@@ -70,7 +71,7 @@ def pose_case(clip: Clip, case: PoseCase, settings: Settings, previous_turn_side
     way = _approach(case, make, heading, aim, ttc_s, settings)
     threat = _perceived(clip.body, now, case, make, way, aim)
     found = protect(clip.body, now, ahead, planted, threat, settings, previous_turn_side, landing)
-    return PosedCase(clip.body, now, threat, way, found)
+    return PosedCase(clip.body, now, ahead, threat, way, found)
 
 
 def _ttc_s(case: PoseCase, make: Make, heading: float, settings: Settings) -> float:
