@@ -20,6 +20,7 @@ from behaviours.settings import Settings
 from behaviours.sustained import Protection, protect
 from behaviours.threats import KINDS, Make, make_threat
 from behaviours.timing import TICK_S, facing_dot_threat, time_to_contact_s, whole_ticks
+from behaviours.wearing import Worn, as_felt, worn_pose
 from engine.body.kinematics import com_of, joints_of
 from engine.body.skeleton import JOINTS, PELVIS, Body, Pose
 from engine.clips.clip import Clip
@@ -41,6 +42,8 @@ class PoseCase(NamedTuple):
     target: str = "head"
     kind: str = "volleyball"
     size_means: str = "rule"
+    worn: Worn | None = None  # the stance under the clip
+    boldness: float = 0.0  # -1 timid ... +1 bold
 
 
 class PosedCase(NamedTuple):
@@ -57,19 +60,19 @@ class PosedCase(NamedTuple):
 def pose_case(clip: Clip, case: PoseCase, settings: Settings, previous_turn_side: float = 0.0) -> PosedCase:
     """The protective pose of a clip's subject at a time against a scripted threat. ValueError for an unknown target."""
     make = make_threat(case.kind, case.speed_mps, case.size, size_means=case.size_means)
-    now = sample(clip, case.at_s)
+    now = _sampled(clip, case.at_s, case.worn)
     heading = float(quaternion.heading(now.rotations[PELVIS]))
     ttc_s = _ttc_s(case, make, heading, settings)
-    ahead, planted, landing = _look_ahead(clip, case.at_s, ttc_s, settings)
+    ahead, planted, landing = _look_ahead(clip, case, ttc_s, settings)
     joint, offset = aim_of(clip.body, case.target)
     aim = target_centre(joint, offset, *joints_of(clip.body, now))
     for _ in range(AIM_PASSES):
         way = _approach(case, make, heading, aim, ttc_s, settings)
-        threat = _perceived(clip.body, now, case, make, way, aim)
+        threat = _perceived(clip.body, now, case, make, way, aim, settings)
         task = prepare(clip.body, now, ahead, planted, threat, settings, previous_turn_side, landing)
         aim = aim_point(task)
     way = _approach(case, make, heading, aim, ttc_s, settings)
-    threat = _perceived(clip.body, now, case, make, way, aim)
+    threat = _perceived(clip.body, now, case, make, way, aim, settings)
     found = protect(clip.body, now, ahead, planted, threat, settings, previous_turn_side, landing)
     return PosedCase(clip.body, now, ahead, threat, way, found)
 
@@ -81,15 +84,21 @@ def _ttc_s(case: PoseCase, make: Make, heading: float, settings: Settings) -> fl
     return whole_ticks(time_to_contact_s(make.speed_norm, facing, settings.timing)) * TICK_S
 
 
-def _look_ahead(clip: Clip, at_s: float, ttc_s: float, settings: Settings) -> tuple[Pose, np.ndarray, bool]:
+def _sampled(clip: Clip, time_s: float, worn: Worn | None) -> Pose:
+    """As in a run: the clip's pose, over the stance that is worn under it."""
+    pose = sample(clip, time_s)
+    return pose if worn is None else worn_pose(clip.body, pose, worn)
+
+
+def _look_ahead(clip: Clip, case: PoseCase, ttc_s: float, settings: Settings) -> tuple[Pose, np.ndarray, bool]:
     """As in a run: the clip 1/6 s on, or its next landing for somebody in the air (A4)."""
-    planted = planted_at(clip, at_s)
+    planted = planted_at(clip, case.at_s)
     if not planted.any():
         for k in range(1, int(ttc_s / TICK_S)):
-            there = planted_at(clip, at_s + k * TICK_S)
+            there = planted_at(clip, case.at_s + k * TICK_S)
             if there.any():
-                return sample(clip, at_s + k * TICK_S), there, True
-    return sample(clip, at_s + settings.timing.sustained_ahead_s), planted, False
+                return _sampled(clip, case.at_s + k * TICK_S, case.worn), there, True
+    return _sampled(clip, case.at_s + settings.timing.sustained_ahead_s, case.worn), planted, False
 
 
 def _approach(case: PoseCase, make: Make, heading: float, aim, ttc_s: float, settings: Settings) -> Approach:
@@ -99,10 +108,17 @@ def _approach(case: PoseCase, make: Make, heading: float, aim, ttc_s: float, set
     )  # fmt: skip
 
 
-def _perceived(body: Body, now: Pose, case: PoseCase, make: Make, way: Approach, aim) -> PerceivedThreat:
+def _perceived(
+    body: Body, now: Pose, case: PoseCase, make: Make, way: Approach, aim, settings: Settings
+) -> PerceivedThreat:
+    temper = settings.temper
+    felt = (
+        as_felt(make.speed_norm, case.boldness, temper.speed_share),
+        as_felt(make.size_norm, case.boldness, temper.size_share),
+    )
     travel = vector.unit(vector.subtract(way.contact_m, way.start_m), (-1.0, 0.0, 0.0))
     tangent = vector.unit(way.contact_mps, travel)
-    return perceive(body, now, case.target, aim, tangent, travel, make.speed_norm, make.size_norm, make.radius_m)
+    return perceive(body, now, case.target, aim, tangent, travel, *felt, make.radius_m)
 
 
 def pose_report(posed: PosedCase, milliseconds: float | None = None) -> dict[str, Any]:

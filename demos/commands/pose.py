@@ -10,6 +10,7 @@ from typing import Any
 from demos.output import print_json, say
 
 REPEATS = 5  # the time reported is the best of these
+MOST_INTENSITY = 2.0  # of a stance, as in a scenario
 
 
 def register(subparsers) -> None:
@@ -27,6 +28,8 @@ def register(subparsers) -> None:
     parser.add_argument("--size", type=float, default=0.5, metavar="X", help="0 to 1, as the rules see it (0.5)")
     parser.add_argument("--target", default="head", metavar="T", help="head, torso, pelvis or a joint (head)")
     parser.add_argument("--kind", default="volleyball", metavar="K", help="what is thrown (volleyball)")
+    parser.add_argument("--stance", metavar="SET:X", help="a shape set and its intensity, worn under the clip")
+    parser.add_argument("--boldness", type=float, default=0.0, metavar="B", help="-1 timid to +1 bold (0)")
     parser.add_argument(
         "--set", action="append", default=[], metavar="KEY=VALUE",
         help="changes a constant of the model, such as balance.brace_m=0.05; may be repeated",
@@ -42,10 +45,12 @@ def run(args: argparse.Namespace) -> None:
 
     _check_output(args.output)
     case, settings = _wanted(args)
+    stance = _stance(args.stance)
     clip = _clip(args)
     forget_stale()
-    posed = pose_case(clip, case, settings)
+    posed = pose_case(clip, case._replace(worn=_worn(clip.body, stance)), settings)
     report = pose_report(posed, _solve_ms(posed, settings))
+    report |= {"stance": stance and stance._asdict(), "boldness": args.boldness}
     if args.output:
         _draw(posed, args.output)
         say(f"wrote {args.output}")
@@ -83,8 +88,37 @@ def _wanted(args: argparse.Namespace):
         "speed_mps": args.speed, "size": args.size,
     }  # fmt: skip
     check_scenario({"threat": [threat]}, "the threat")  # the same bounds as in a scenario
-    case = PoseCase(args.at, args.azimuth, args.elevation, args.speed, args.size, args.target, args.kind)
+    check_scenario({"character": [{"boldness": args.boldness}]}, "the character")
+    case = PoseCase(
+        args.at, args.azimuth, args.elevation, args.speed, args.size, args.target, args.kind, boldness=args.boldness
+    )
     return case, override(Settings(), dict(_override(text) for text in args.set))
+
+
+def _stance(text: str | None):
+    """`posture:-0.8` as a name and an intensity; a name alone means all of it. BadInput for anything else."""
+    from behaviours.stance.shape_sets import Named, meaning_of
+    from engine.core.errors import BadInput
+
+    if text is None:
+        return None
+    name, colon, number = text.partition(":")
+    meaning_of(name)
+    try:
+        intensity = float(number) if colon else 1.0
+    except ValueError:
+        intensity = math.nan
+    if not abs(intensity) <= MOST_INTENSITY:
+        most = f"{MOST_INTENSITY:g}"
+        raise BadInput("usage", f"--stance {text!r}: expected SET:X with X from -{most} to {most}, as posture:-0.8")
+    return Named(name, intensity)
+
+
+def _worn(body, stance):
+    """What the stance puts under the clip of this body."""
+    from behaviours.wearing import worn_by
+
+    return worn_by(body, stance.set_name, stance.intensity) if stance and stance.intensity else None
 
 
 def _override(text: str) -> tuple[str, Any]:

@@ -3,6 +3,7 @@
 import json
 import math
 
+import numpy as np
 import pytest
 from PIL import Image
 
@@ -52,6 +53,45 @@ def test_a_constant_can_be_changed(capsys):
     assert math.dist(wanted[0]["com_wanted_m"], wanted[1]["com_wanted_m"]) == pytest.approx(0.1, abs=1e-6)
 
 
+def test_a_stance_is_worn_under_the_clip(capsys):
+    plain, hunched, word, none = (
+        pose(capsys, *words)
+        for words in ((), ("--stance", "posture:-1"), ("--stance", "hunched"), ("--stance", "posture:0"))
+    )
+    heads = [found["pose"]["clip"]["joints_m"]["head"] for found in (plain, hunched)]
+    assert heads[1][0] > heads[0][0] + 0.05  # over the toes of somebody who faces +X
+    for foot in ("left_ankle", "right_ankle"):
+        assert hunched["pose"]["clip"]["joints_m"][foot] == pytest.approx(plain["pose"]["clip"]["joints_m"][foot])
+    assert hunched["stance"] == {"set_name": "posture", "intensity": -1.0}
+    assert word["pose"] == hunched["pose"]
+    assert none["pose"] == plain["pose"] and plain["stance"] is None
+
+
+def test_a_pose_and_a_run_agree_on_what_a_stance_makes_of_it(capsys):
+    """The same threat in a scenario: the pose that the simulation works out is that of the command."""
+    from behaviours.components import Phase, Reaction, Sustained
+    from behaviours.scenario import check_scenario
+    from behaviours.simulation import Simulation
+    from engine.body.kinematics import joints_of
+    from engine.body.skeleton import WRISTS, Pose
+    from engine.clips.library import find_clip
+
+    person = {"clip": "sway", "start_s": 0.0, "startle": False, "boldness": -0.5}
+    threat = {"azimuth_deg": 30.0, "elevation_deg": 5.0, "speed_mps": 26.0, "perceived_s": 1.0}
+    stanced = person | {"stance": {"set": "posture", "intensity": -0.8}}
+    run = Simulation(
+        check_scenario({"version": 1, "duration_s": 2.0, "character": [stanced], "threat": [threat]}),
+        lambda spec: find_clip(spec.clip),
+    )
+    while run.world[Reaction].phase[0] == Phase.PLAY:
+        run.step()
+    s = run.world[Sustained]
+    body = run.world.assets.bodies[0]
+    ran = joints_of(body, Pose(s.root_m[0].copy(), s.rotations[0].copy()))[0][list(WRISTS)]
+    said = pose(capsys, "--stance", "posture:-0.8", "--boldness", "-0.5")["pose"]["sustained"]["joints_m"]
+    assert np.abs(ran - [said["left_wrist"], said["right_wrist"]]).max() < 0.03  # a tick apart, and two searches
+
+
 def test_words_show_every_term(capsys):
     assert main(CASE) == 0
     out = capsys.readouterr().out
@@ -79,6 +119,11 @@ def test_a_picture_is_drawn(brace, tmp_path):
         (["--clip", "nowhere.bvh"], 2),
         (["--set", "balance.brce_m=1"], 2),
         (["--set", "balance.brace_m"], 2),
+        (["--stance", "postur:1"], 2),
+        (["--stance", "posture:much"], 2),
+        (["--stance", "posture:nan"], 2),
+        (["--stance", "posture:-2.5"], 2),
+        (["--boldness", "1.5"], 2),
         (["-o", "pose.jpg"], 2),
         (["-o", "nowhere/pose.png"], 3),
     ],
