@@ -18,7 +18,7 @@ from behaviours.timing import TICK_S, time_to_contact_s, whole_ticks
 from engine.body.kinematics import joints_of
 from engine.core.schedule import Stage, system
 from engine.maths import vector
-from engine.maths.ballistics import GRAVITY_MPS2
+from engine.maths.ballistics import GRAVITY_MPS2, fly
 
 AIM_PASSES = 2  # the aim depends on the lean, the lean on the direction of travel, that on the aim: settled in two
 UPRIGHT = (1.0, 0.0, 0.0, 0.0)
@@ -79,8 +79,10 @@ def is_due(world, spec: ThreatSpec, row: int, tick: int) -> bool:
     return tick >= first_due(1.0 if spec.perceived_s is None else spec.perceived_s)
 
 
-def throw_scripted(world, spec: ThreatSpec, row: int, tick: int) -> None:
-    """Puts a scripted threat where it has to be now to arrive as its script says; it is perceived at once."""
+def throw_scripted(world, spec: ThreatSpec, row: int, tick: int) -> int:
+    """Puts a scripted threat where it has to be now to arrive as its script says; it is perceived at once. Its
+    handle.
+    """
     make = make_of(spec, speed_of(spec))
     way = aimed_approach(world, spec, make, row)
     entity = world.spawn(
@@ -97,6 +99,19 @@ def throw_scripted(world, spec: ThreatSpec, row: int, tick: int) -> None:
         elevation_raised_deg=way.raised_deg,
         ttc_shortened_s=way.shortened_s,
     )
+    return entity
+
+
+def threaten(world, spec: ThreatSpec) -> None:
+    """A scripted threat that begins to come now, from outside: as if the scenario had it due at this tick.
+
+    Balls fly before threats are launched, so in this tick it flies once more than one of the scenario's: it starts a
+    tick further back.
+    """
+    entity = throw_scripted(world, spec, world.assets.character_rows[spec.at_character], world.tick)
+    f, row = world[Flight], world.row(entity)
+    at, speed = fly(f.position_m[row], f.velocity_mps[row], GRAVITY_MPS2, float(f.drag_per_m[row]), -TICK_S)
+    f.position_m[row], f.velocity_mps[row] = at, speed
 
 
 def aimed_approach(world, spec: ThreatSpec, make: Make, row: int) -> Approach:

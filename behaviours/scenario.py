@@ -110,6 +110,40 @@ class ThreatSpec(_Section):
         return self
 
 
+class ThrowSpec(_Section):
+    """A ball that somebody throws from somewhere, in the world; it may miss."""
+
+    at_character: Annotated[int, Field(ge=0)] = 0
+    position_m: tuple[float, float, float]
+    velocity_mps: tuple[float, float, float]
+    kind: Literal["volleyball", "custom"] = "volleyball"
+    size: Annotated[float, Field(ge=0, le=1)] = 0.5
+
+
+class CommandSpec(_Section):
+    """What came in from outside in the window: a throw, or a threat that begins to come at that moment."""
+
+    at_s: Annotated[float, Field(ge=0)]
+    throw: ThrowSpec | None = None
+    threat: ThreatSpec | None = None
+
+    @model_validator(mode="after")
+    def _one_of_them(self) -> CommandSpec:
+        if (self.throw is None) == (self.threat is None):
+            raise ValueError("a command is either a throw = {...} or a threat = {...}")
+        if self.threat is not None and self.threat.free:
+            raise ValueError("a free threat is a throw = {...} here")
+        return self
+
+    def as_command(self) -> dict[str, Any]:
+        """The same in the words of a recording; see `behaviours.simulation.apply_command`."""
+        if self.throw is not None:
+            given = self.throw.model_dump(mode="json")
+            return {"do": "throw", "at": given.pop("at_character"), **given}
+        assert self.threat is not None
+        return {"do": "threaten", "threat": self.threat.model_dump(mode="json", exclude_defaults=True)}
+
+
 class Scenario(_Section):
     """A whole run, checked. `settings` holds overrides of the thesis's constants, dotted in groups."""
 
@@ -118,6 +152,7 @@ class Scenario(_Section):
     duration_s: Annotated[float, Field(gt=0, le=600)] = 4.0
     character: tuple[CharacterSpec, ...] = (CharacterSpec(),)
     threat: tuple[ThreatSpec, ...] = ()
+    command: tuple[CommandSpec, ...] = ()  # applied before the tick of their moment
     library: tuple[str, ...] | None = (
         None  # clips that a search for a new motion looks through; None: all that are here
     )
@@ -129,6 +164,12 @@ class Scenario(_Section):
             if threat.at_character >= len(self.character):
                 raise ValueError(
                     f"threat.{i}.at_character is {threat.at_character}; there are {len(self.character)} characters"
+                )
+        for i, command in enumerate(self.command):
+            given = command.throw or command.threat
+            if given is not None and given.at_character >= len(self.character):
+                raise ValueError(
+                    f"command.{i} is at character {given.at_character}; there are {len(self.character)} characters"
                 )
         return self
 
@@ -174,10 +215,19 @@ def check_scenario(raw: dict[str, Any], where: str = "scenario", text: str = "")
         raise BadInput("scenario", message + more, f"{where}:{line}" if line else where) from None
 
 
+def check_threat(raw: dict[str, Any]) -> ThreatSpec:
+    """One scripted threat from plain data. BadInput on the first trouble."""
+    try:
+        return ThreatSpec.model_validate(raw)
+    except ValidationError as trouble:
+        first = trouble.errors()[0]
+        raise BadInput("threat", _explain(first, ["threat", *(str(key) for key in first["loc"])])) from None
+
+
 def _explain(error: Any, keys: list[str]) -> str:
     dotted = ".".join(keys)
     if error["type"] == "extra_forbidden":
-        sections: dict[str, type[_Section]] = {"character": CharacterSpec, "threat": ThreatSpec}
+        sections: dict[str, type[_Section]] = {"character": CharacterSpec, "threat": ThreatSpec, "command": CommandSpec}
         section = StanceSpec if "stance" in keys[:-1] else sections.get(keys[0], Scenario)
         return f"unknown key {dotted!r}; {_nearest(keys[-1], tuple(section.model_fields))}"
     reason = error["msg"].removeprefix("Value error, ")

@@ -30,14 +30,14 @@ from behaviours.components import (
 from behaviours.flying import clear_away, fly_balls
 from behaviours.getting_up import get_up
 from behaviours.going_on import go_on
-from behaviours.launching import launch_threats, throw
+from behaviours.launching import launch_threats, threaten, throw
 from behaviours.library import FindClip, gather_libraries
 from behaviours.observing import Observer
 from behaviours.placing import placed
 from behaviours.reaction import advance_reactions, notice
 from behaviours.report import report_of
 from behaviours.response import meet_balls, step_bodies
-from behaviours.scenario import CharacterSpec, Scenario, ThreatSpec
+from behaviours.scenario import CharacterSpec, Scenario, ThreatSpec, check_threat
 from behaviours.search import Library
 from behaviours.senses import watch_free_threats
 from behaviours.settings import Settings, override
@@ -50,6 +50,7 @@ from engine.body.skeleton import Body
 from engine.clips.clip import Clip
 from engine.clips.mirror import mirror_body, mirror_clip
 from engine.clips.playback import sample
+from engine.core.clock import ticks
 from engine.core.errors import BadInput
 from engine.core.journal import Command
 from engine.core.schedule import Schedule
@@ -168,11 +169,16 @@ def _spawn_character(world: World, row: int, spec: CharacterSpec) -> None:
 
 
 def apply_command(world: World, command: Command) -> None:
-    """What comes in from outside, as data: {"do": "throw", position_m, velocity_mps, kind, size, at, ...}. BadInput
-    otherwise.
+    """What comes in from outside, as data, before a tick. BadInput where it is neither of
+
+    {"do": "throw", position_m, velocity_mps, kind, size, at, ...}: a ball from somewhere, that may miss;
+    {"do": "threaten", "threat": {what a scenario's threat says}}: one that comes as a scripted threat does, from now.
     """
+    if command.get("do") == "threaten":
+        threaten(world, check_threat(command["threat"]))
+        return
     if command.get("do") != "throw":
-        raise BadInput("command", f"unknown command {command.get('do')!r}; expected 'throw'")
+        raise BadInput("command", f"unknown command {command.get('do')!r}; expected 'throw' or 'threaten'")
     velocity = tuple(command["velocity_mps"])
     kind = command.get("kind", "volleyball")
     given = {key: command[key] for key in ("radius_m", "mass_kg", "size_means", "drag") if key in command}
@@ -188,6 +194,9 @@ class Simulation:
 
     def __init__(self, scenario: Scenario, find: FindClip, *, observe: bool = False, checked: bool = False):
         self.scenario = scenario
+        self.commands: dict[int, list[Command]] = {}
+        for given in scenario.command:
+            self.commands.setdefault(ticks(given.at_s), []).append(given.as_command())
         self.world = build_world(scenario, find)
         self.schedule = Schedule(SYSTEMS, checked=checked)
         self.observer = Observer(self.world, self.world.assets.character_rows) if observe else None
@@ -198,7 +207,11 @@ class Simulation:
         return round(self.scenario.duration_s / TICK_S)
 
     def step(self, world: World | None = None) -> None:
-        """One tick. Takes the world as recorders pass it; it is always this simulation's own."""
+        """One tick, the scenario's commands for it first. Takes the world as recorders pass it; it is always this
+        simulation's own.
+        """
+        for command in self.commands.get(self.world.tick, ()):
+            apply_command(self.world, command)
         self.schedule.tick(self.world)
         if self.observer:
             self.observer.look(self.world)

@@ -1,0 +1,73 @@
+"""The layer of widgets over the picture: takes its share of the events, lets somebody draw, paints the result."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable
+
+import glfw  # noqa: F401  before imgui_bundle, which otherwise finds a library of its own
+from imgui_bundle import imgui
+
+from engine.render.events import Event, Key, MouseButton, MouseMove, Scroll, Text
+from engine.render.ui.input import tell
+from engine.render.ui.paint import Painter
+from engine.render.ui.style import apply_style
+from engine.render.ui.widgets import Ui
+
+
+class Overlay:
+    """One a process: imgui's context is global."""
+
+    def __init__(self, gl):
+        self.context = imgui.create_context()
+        io = imgui.get_io()
+        io.set_ini_filename("")
+        io.set_log_filename("")
+        io.config_input_trickle_event_queue = True
+        apply_style()
+        self.painter = Painter(gl)
+        self.ui = Ui()
+        self.held: set[int] = set()  # buttons that went down on a widget
+
+    def take(self, events: Iterable[Event], scale: float) -> list[Event]:
+        """Tells imgui everything; returns what was not meant for a widget."""
+        events = list(events)
+        tell(events, scale)
+        return [event for event in events if not self._took(event, scale)]
+
+    def paint(self, target, scale: float, passed_s: float, draw: Callable[[Ui], None]) -> None:
+        """One frame of widgets, made by `draw`, over the picture in `target`."""
+        io = imgui.get_io()
+        width, height = target.size
+        io.display_size = (width / scale, height / scale)
+        io.display_framebuffer_scale = (scale, scale)
+        io.delta_time = min(max(passed_s, 1e-4), 0.5)
+        self.ui.width, self.ui.height = width / scale, height / scale
+        self.ui.areas.clear()
+        imgui.new_frame()
+        draw(self.ui)
+        imgui.render()
+        self.painter.paint(target)
+
+    def close(self) -> None:
+        imgui.destroy_context(self.context)
+
+    def _took(self, event: Event, scale: float) -> bool:
+        """Keys while a line is typed in; the mouse over an area or a popup, and from press to release."""
+        if isinstance(event, (Key, Text)):
+            return imgui.get_io().want_text_input
+        if isinstance(event, MouseButton):
+            if event.pressed and self._over(event.x_px / scale, event.y_px / scale):
+                self.held.add(event.button)
+                return True
+            if not event.pressed and event.button in self.held:
+                self.held.discard(event.button)
+                return True
+            return False
+        if isinstance(event, Scroll):
+            return self._over(event.x_px / scale, event.y_px / scale)
+        return isinstance(event, MouseMove) and bool(self.held)
+
+    def _over(self, x: float, y: float) -> bool:
+        if imgui.is_popup_open("", imgui.PopupFlags_.any_popup):
+            return True
+        return any(x0 <= x < x1 and y0 <= y < y1 for x0, y0, x1, y1 in self.ui.areas)
