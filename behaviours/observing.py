@@ -6,15 +6,17 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, field
+from enum import IntEnum
 
 import numpy as np
 
+from behaviours import feet as foot_plan
 from behaviours.components import NOBODY, Blend, Feet, Phase, Playback, Posture, Ragdoll, Reaction
-from behaviours.playing import body_of
+from behaviours.playing import body_of, clip_pose, clip_time_s
 from behaviours.seams import MOMENT
 from behaviours.settling import settled_pose
-from behaviours.sources import blended
-from behaviours.timing import TICK_S
+from behaviours.sources import blended, simulated_pose
+from behaviours.timing import TICK_S, whole_ticks
 from engine.body.kinematics import com_of, joints_of
 from engine.body.skeleton import ELBOWS, SHOULDERS, WRISTS, Body, Pose
 from engine.body.two_bones import SOFT_REACH_M
@@ -33,7 +35,10 @@ class Track:
     phase: list[int] = field(default_factory=list)
     root_m: list[np.ndarray] = field(default_factory=list)
     rotations: list[np.ndarray] = field(default_factory=list)
-    planted: list[np.ndarray] = field(default_factory=list)
+    planted: list[np.ndarray] = field(default_factory=list)  # flagged: may not slide
+    stands: list[tuple[bool, bool]] = field(default_factory=list)  # by the plan: held, or its step yet to begin
+    played: list[Pose | None] = field(default_factory=list)  # the clip's own pose, at ticks at which it plays
+    made_from: list[Pose] = field(default_factory=list)  # and its poses that a reaction was made from
     seams: list[Seam] = field(default_factory=list)
     lines: list[Line] = field(default_factory=list)
     head_mps: list[np.ndarray] = field(default_factory=list)  # (sub-steps, 3) each tick under physics, empty elsewhere
@@ -45,10 +50,28 @@ class Track:
         """All ticks as one pose with a leading axis."""
         return Pose(np.array(self.root_m), np.array(self.rotations))
 
+    @property
+    def own(self) -> Pose:
+        """The clips' own poses in this run, with a leading axis: what is theirs is not ours."""
+        poses = [*self.made_from, *(pose for pose in self.played if pose is not None)]
+        return Pose(np.array([pose.root_m for pose in poses]), np.array([pose.rotations for pose in poses]))
+
+
+class HandWay(IntEnum):
+    """How a hand goes from one end of a blend to the other, at one moment."""
+
+    STRAIGHT = 0
+    BOWED = 1  # chosen so for the whole blend: the straight line leads through the body or where no shoulder follows
+    LED = 2  # pushed off its line just now, to keep clear of the body
+    BEYOND_REACH = 3  # its line is farther, or nearer, than the arm goes
+
 
 @dataclass(frozen=True)
 class Seam:
-    """One-sided positions and velocities at a tick where one source took over from another: (J, 3) each."""
+    """One-sided positions and velocities at a tick where one source took over from another: (J, 3) each.
+
+    A blow is a seam in place alone: both velocities are those after it.
+    """
 
     tick: int
     into: Phase
@@ -66,7 +89,7 @@ class Line:
     between_m: np.ndarray  # (J, 3) joints of the source
     start_m: np.ndarray  # (J, 3) and of the blend's two ends
     end_m: np.ndarray
-    on_line: tuple[bool, bool]  # the hand is within reach of its line and nothing of the body is in its way
+    ways: tuple[HandWay, HandWay]  # left, right
     com_m: np.ndarray  # (3,)
     com_ends_m: tuple[np.ndarray, np.ndarray]
 
@@ -81,7 +104,8 @@ class Observer:
         """After a tick: world.tick is the next one, the state is that of the one before."""
         tick = world.tick - 1
         for row, track in self.tracks.items():
-            _note_seam(world, row, tick, track)
+            if track.phase and world[Reaction].since[row] == tick and track.phase[-1] != world[Reaction].phase[row]:
+                _note_seam(world, row, tick, track)
             _note(world, row, tick, track)
 
 
@@ -92,12 +116,23 @@ def _note(world, row: int, tick: int, track: Track) -> None:
     track.root_m.append(p.root_m[row].copy())
     track.rotations.append(p.rotations[row].copy())
     track.planted.append(world[Feet].planted[row].copy())
+    track.stands.append(tuple(foot_plan.stands(world[Feet], row, side, tick) for side in range(2)))
     track.clip.append(int(world[Playback].clip[row]))
+    plays = r.phase[row] == Phase.PLAY
+    track.played.append(clip_pose(world, row, clip_time_s(world, row, tick)) if plays else None)
+    if r.since[row] == tick and not plays:
+        track.made_from.extend(_poses_made_from(world, row))
     physics = world[Ragdoll].active[row]
     track.head_mps.append(world[Ragdoll].head_mps[row].copy() if physics else np.empty((0, 3)))
     if r.phase[row] in BLENDED and world[Blend].support[row] != NOBODY:
         track.lines.append(_line(world, row, tick, track.body))
     track.before = _joints(track.body, settled_pose(world, row, tick - MOMENT))
+
+
+def _poses_made_from(world, row: int) -> list[Pose]:
+    """The clip from perception to re-entry."""
+    ticks = whole_ticks(world.assets.settings.timing.sustained_ahead_s)
+    return [clip_pose(world, row, float(world[Reaction].clip_s[row]) + k * TICK_S) for k in range(ticks + 1)]
 
 
 def _line(world, row: int, tick: int, body: Body) -> Line:
@@ -106,24 +141,18 @@ def _line(world, row: int, tick: int, body: Body) -> Line:
     ends = (Pose(b.from_root_m[row], b.from_rotations[row]), Pose(b.to_root_m[row], b.to_rotations[row]))
     joints_m = joints_of(body, source)[0]
     start_m, end_m = (joints_of(body, end)[0] for end in ends)
-    left, right = (
-        bool(
-            abs(b.arcs[row, side, 0]) < 0.01
-            and b.arcs[row, side, 1] == 0.0
-            and led_m[side] == 0.0
-            and in_reach(body, side, joints_m)
-        )
-        for side in range(2)
-    )
-    return Line(
-        tick,
-        joints_m,
-        start_m,
-        end_m,
-        (left, right),
-        com_of(body, source),
-        (com_of(body, ends[0]), com_of(body, ends[1])),
-    )
+    left, right = (way_of(body, side, b.arcs[row, side], led_m[side], joints_m) for side in range(2))
+    coms_m = (com_of(body, ends[0]), com_of(body, ends[1]))
+    return Line(tick, joints_m, start_m, end_m, (left, right), com_of(body, source), coms_m)
+
+
+def way_of(body: Body, side: int, arc, led_m: float, joints_m: np.ndarray) -> HandWay:
+    """How a hand goes; `arc` (2,) is its row of `Blend.arcs`, `led_m` how far it is pushed off its way."""
+    if abs(arc[0]) >= 0.01 or arc[1] != 0.0:
+        return HandWay.BOWED
+    if led_m != 0.0:
+        return HandWay.LED
+    return HandWay.STRAIGHT if in_reach(body, side, joints_m) else HandWay.BEYOND_REACH
 
 
 def in_reach(body: Body, side: int, joints_m: np.ndarray) -> bool:
@@ -139,25 +168,24 @@ def _note_seam(world, row: int, tick: int, track: Track) -> None:
     """Both sides of a phase that began with this tick: the seam lies at the tick before, the last that the old source
     showed.
     """
-    if not track.phase or world[Reaction].since[row] != tick or track.phase[-1] == world[Reaction].phase[row]:
+    into, moment_s = Phase(int(world[Reaction].phase[row])), MOMENT * TICK_S
+    if into == Phase.RESPOND:
+        track.seams.append(_blow_seam(world, row, tick, track))
         return
-    if world[Reaction].phase[row] == Phase.RESPOND:
-        return  # a blow begins at the end of a tick, on what is shown: its velocities are the impulse's
     seam_tick = tick - 1
     shown = _joints(track.body, (track.root_m[-1], track.rotations[-1]))
     taken_up = _joints(track.body, settled_pose(world, row, seam_tick))
     later = _joints(track.body, settled_pose(world, row, seam_tick + MOMENT))
-    moment_s = MOMENT * TICK_S
     track.seams.append(
-        Seam(
-            tick,
-            Phase(int(world[Reaction].phase[row])),
-            shown,
-            taken_up,
-            (shown - track.before) / moment_s,
-            (later - taken_up) / moment_s,
-        )
+        Seam(tick, into, shown, taken_up, (shown - track.before) / moment_s, (later - taken_up) / moment_s)
     )
+
+
+def _blow_seam(world, row: int, tick: int, track: Track) -> Seam:
+    """A blow begins at the end of a tick, on what is shown then: the physics is to begin there too."""
+    p, doll_m = world[Posture], _joints(track.body, simulated_pose(world, row, tick))
+    mps = (_joints(track.body, simulated_pose(world, row, tick + MOMENT)) - doll_m) / (MOMENT * TICK_S)
+    return Seam(tick, Phase.RESPOND, _joints(track.body, (p.root_m[row], p.rotations[row])), doll_m, mps, mps)
 
 
 def _joints(body: Body, pose) -> np.ndarray:

@@ -4,14 +4,10 @@ from __future__ import annotations
 
 from typing import Any
 
-import numpy as np
-
-from behaviours import measures
+from behaviours import head_measures, measures
 from behaviours.components import Phase
 from behaviours.observing import Track
-from behaviours.overlap import overlaps_m
 from behaviours.timing import TICK_S
-from engine.body.limits import excess_rad
 
 REACTED = (Phase.STARTLE, Phase.PROTECT, Phase.HOLD, Phase.RESPOND, Phase.DOWN)  # the way back comes after these
 
@@ -40,40 +36,28 @@ def metrics_of(world, row: int, track: Track) -> dict[str, Any]:
     mine = [event for event in world.events if event.entity == who]
     perceived = [event.data for event in mine if event.kind == "perceived"]
     contacts = [event.data for event in mine if event.kind == "contact"]
-    clips = [world.assets.clips[number] for number in sorted(set(track.clip))]
-    head_g = measures.head_acceleration_g(track)
+    head_g = head_measures.head_acceleration_g(track)
     place, speed = measures.seam_jumps(track)
-    overlap, between = measures.overlap_max_m(track, clips_overlap_m(clips))
+    limit, overlap = (measures.greatest(found(track)) for found in (measures.joint_limit_excess, measures.overlap))
     return {
         "ttc_s": perceived[0]["ttc_s"] if perceived else None,
         "contact_error_s": contacts[0]["late_s"] if contacts else None,
         "first_contact": contacts[0]["part"] if contacts else None,
         "head_peak_g": float(head_g.max()) if len(head_g) else None,
-        "hic15": measures.hic15(head_g) if len(head_g) else None,
+        "hic15": head_measures.hic15(head_g) if len(head_g) else None,
         "foot_slide_max_m": measures.foot_slide_max_m(track),
         "hand_line_deviation_max_m": measures.hand_line_deviation_max_m(track.lines),
         "com_line_deviation_max_m": measures.com_line_deviation_max_m(track.lines),
         "com_margin_min_m": measures.com_margin_min_m(track),
-        "joint_limit_excess_max_rad": measures.joint_limit_excess_max_rad(track, clips_excess_rad(clips)),
-        "overlap_max_m": overlap,
-        "overlap_between": between,
+        "joint_limit_excess_max_rad": limit.value,
+        "joint_limit_excess_of": limit.what if limit.value > 0.0 else None,
+        "overlap_max_m": overlap.value,
+        "overlap_between": overlap.what if overlap.value > 0.0 else None,
         "seam_position_jump_max_m": place,
         "seam_velocity_jump_max_mps": speed,
         "stopped": sum(event.kind == "stopped" for event in mine),
         "recovered_to": recovered_to(track, world.assets.clips),
     }
-
-
-def clips_excess_rad(clips) -> np.ndarray:
-    """(J,) how far the clips themselves that were played overstep each joint's limits, at most."""
-    return np.max([excess_rad(clip.body, clip.pose.rotations).max(axis=0) for clip in clips], axis=0)
-
-
-def clips_overlap_m(clips) -> np.ndarray:
-    """(P,) how deep those clips have their arms in head, trunk and each other themselves, at most; see
-    `behaviours.overlap`.
-    """
-    return np.max([overlaps_m(clip.body, clip.pose).max(axis=0) for clip in clips], axis=0)
 
 
 def recovered_to(track: Track, clips) -> str | None:

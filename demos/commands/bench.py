@@ -59,25 +59,59 @@ def run(args: argparse.Namespace) -> None:
 
 
 def bench_motion(args: argparse.Namespace) -> None:
-    """The table of figures and their bars; with --out, its worst cases to look at."""
-    from demos.benchmarks.motion import bench, write_worst
-    from demos.benchmarks.motion_table import figures_of, lines_of
+    """The table of figures and their bars, and where they arise; with --out, the worst cases to look at."""
+    from demos.benchmarks.motion import bench
+    from demos.benchmarks.motion_films import write_worst
+    from demos.benchmarks.motion_table import figures_of
+    from demos.kernels import forget_stale
     from demos.running import with_progress
 
-    rows = bench(_cases(args, 200), args.seed, lambda cases: with_progress(cases, "throwing", len(cases)))
+    forget_stale()
+    found = bench(_cases(args, 200), args.seed, lambda rows, total: with_progress(rows, "throwing", total))
+    figures = figures_of(found.rows, found.poses)
     if args.out:
         folder = Path(args.out)
         folder.mkdir(parents=True, exist_ok=True)
-        for path in write_worst(rows, folder):
+        for path in write_worst(figures, found.clips, folder):
             say(f"wrote {path}")
     if args.json:
-        figures = [
-            figure._asdict() | {"worst": str(figure.worst["case"]) if figure.worst else None}
-            for figure in figures_of(rows)
-        ]
-        print_json({"cases": len(rows), "figures": figures})
-        return
-    print("\n".join(lines_of(rows)))
+        print_json(_motion_data(found, figures))
+    else:
+        print("\n".join(_motion_lines(found, figures)))
+
+
+def _motion_lines(found, figures) -> list[str]:
+    from demos.benchmarks.motion_cases import get_ups_here, where_from
+    from demos.benchmarks.motion_phases import fall_figures, phase_lines, search_lines
+    from demos.benchmarks.motion_table import lines_of
+
+    table, *counted = "\n".join(lines_of(figures)).split("\n\n")
+    falls, search = fall_figures(found.falls), search_lines(found.rows, get_ups_here(), found.falls)
+    many = f"{len(found.rows)} threats at {len(found.clips)} clips, {len(found.falls)} knock-downs"
+    return [
+        f"{many}; {where_from(found.clips)}",
+        *("", table),
+        *("", *phase_lines(found.rows)),
+        *("", *search),
+        *("", "of the knock-downs", *lines_of(falls)[: len(falls) + 1]),
+        *("", *counted),
+    ]
+
+
+def _motion_data(found, figures) -> dict:
+    from demos.benchmarks.motion_phases import fall_figures
+
+    def plain(figure) -> dict:
+        return figure._asdict() | {"worst": figure.worst_words or None}
+
+    return {
+        "cases": len(found.rows),
+        "knock_downs": len(found.falls),
+        "clips": list(found.clips),
+        "figures": [plain(figure) for figure in figures],
+        "of_knock_downs": [plain(figure) for figure in fall_figures(found.falls)],
+        "poses": found.poses._asdict(),
+    }
 
 
 def bench_stance(args: argparse.Namespace) -> None:
