@@ -36,7 +36,7 @@ def run(args: argparse.Namespace) -> None:
     from engine.core.errors import BadInput
 
     if args.name == LIST:
-        print("\n".join(f"{entry.name:<6} {entry.shows}" for entry in FIGURES))
+        print("\n".join(f"{entry.name:<19} {entry.shows}" for entry in FIGURES))
         return
     chosen = FIGURES if args.name == ALL else (find_figure(args.name),)
     if args.output is None:

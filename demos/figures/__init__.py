@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 class Entry(NamedTuple):
     """One figure of the list."""
 
-    name: str  # the thesis's number, or a word
+    name: str  # the thesis's number, the stance paper's after `stance-`, or a word
     module: str
     shows: str
 
@@ -45,6 +45,14 @@ FIGURES = (
     Entry("5.1", "speeds", "sustained poses just before impact, slow to fast"),
     Entry("5.2", "filmstrips", "back to the same motion, or into a new one, mild and extreme"),
     Entry("sweep", "sweep", "azimuth, speed and size, two of each: eight sustained poses"),
+    Entry("stance-1", "stance_reaching", "four reach postures that satisfy the same constraint"),
+    Entry("stance-3", "stance_freedoms", "the degrees of freedom of the full skeleton"),
+    Entry("stance-4", "stance_penalty", "the penalty: a desired value and four cubic Hermite pieces"),
+    Entry("stance-5", "stance_postures", "a continuous range of postures, Alberts' thirteen words"),
+    Entry("stance-6", "stance_reactions", "reactions to an object: two recoils, two kinds of interest"),
+    Entry("stance-7", "stance_intensities", "four intensities of the strong recoil"),
+    Entry("stance-8", "stance_lower_body", "where the free hip can be, and the place that is taken"),
+    Entry("stance-meets-threat", "stance_meets_threat", "the same threats met by four characters, each in its stance"),
 )
 
 

@@ -15,6 +15,7 @@ from behaviours.settings import Settings
 from behaviours.sustained import Protection
 from behaviours.threats import Make, make_threat
 from behaviours.timing import TICK_S
+from behaviours.wearing import Worn
 from engine.body.kinematics import com_of, joints_of
 from engine.body.skeleton import PELVIS, WRISTS, Body, Pose
 from engine.body.support import polygon_of
@@ -46,9 +47,13 @@ def meet(
     size: float = 0.5,
     target: str = "head",
     size_means: str = "rule",
+    worn: Worn | None = None,
+    boldness: float = 0.0,
 ) -> Meeting:
     """What a character at that time of a clip does about a scripted volleyball."""
-    case = PoseCase(0.0, azimuth_deg, elevation_deg, speed_mps, size, target, size_means=size_means)
+    case = PoseCase(
+        0.0, azimuth_deg, elevation_deg, speed_mps, size, target, size_means=size_means, worn=worn, boldness=boldness
+    )
     got = pose_case(over_origin(clip, time_s), case, Settings())
     make = make_threat("volleyball", speed_mps, size, size_means=size_means)
     return Meeting(got.body, got.clip, make, got.approach, got.threat, got.protection)

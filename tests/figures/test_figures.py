@@ -27,6 +27,8 @@ COLOURS = {
     "3.3": "blue yellow", "3.4": "blue yellow", "3.5": "blue yellow", "3.6": "blue yellow", "3.7": "yellow",
     "3.8": "yellow", "3.9": "yellow orange", "3.10": "orange", "3.11": "orange", "3.12": "blue orange",
     "4.1": "blue orange red", "5.1": "orange", "5.2": "blue orange red", "sweep": "orange",
+    "stance-1": "", "stance-3": "", "stance-4": "blue", "stance-5": "", "stance-6": "red", "stance-7": "red",
+    "stance-8": "blue red", "stance-meets-threat": "blue orange",
 }  # fmt: skip
 WORDS = {
     "1.1": ["clip", "blends", "sustained pose", "simulated"],
@@ -48,8 +50,16 @@ WORDS = {
     "5.1": ["22.8 m/s", "29.7 m/s", "TTC"],
     "5.2": ["the same motion", "a new motion, mild", "a new motion, extreme"],
     "sweep": ["size 0", "size 1", "22.8 m/s", "29.7 m/s", "right", "left"],
+    "stance-1": ["plain", "beauty line", "eager", "reluctant", "wrist off by 0.0 mm"],
+    "stance-3": ["abdomen  X Y Z", "collar bone  Y Z", "knee  X", "= 48 degrees of freedom"],
+    "stance-4": ["desired value", "basin", "wall", "flat basin", "steep sides", "asymmetric"],
+    "stance-5": ["hunched", "tired", "relaxed", "over-erect"],
+    "stance-6": ["recoil, mild", "coronal LargeS, sagittal SmallC", "collars Y opposed, Z aligned"],
+    "stance-7": ["0.3", "0.6", "1.0", "1.3"],
+    "stance-8": ["root hip", "free hip", "root ankle", "free ankle", "A", "B", "C", "hip vector as asked for"],
+    "stance-meets-threat": ["timid", "tired", "alert", "proud", "boldness", "cm off", "nothing comes"],
 }
-FROM_SWAY_ALONE = ("1.1", "3.2", "3.9", "3.10", "5.2")
+FROM_SWAY_ALONE = ("1.1", "3.2", "3.9", "3.10", "5.2", "stance-meets-threat")
 
 
 def print_figures(folder: Path, names, **environment) -> Path:

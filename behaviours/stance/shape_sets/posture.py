@@ -14,12 +14,12 @@ from behaviours.stance.torso import LARGE_C, SMALL_S
 # Alberts' thirteen words
 WORDS = {
     "hunched": -1.0,
-    "stooped": -0.85,
-    "slumped": -0.7,
-    "drooped": -0.55,
-    "slouched": -0.4,
-    "sagging": -0.27,
-    "tired": -0.14,
+    "stooped": -0.88,
+    "slumped": -0.76,
+    "drooped": -0.64,
+    "slouched": -0.52,
+    "sagging": -0.4,
+    "tired": -0.28,
     "relaxed": 0.0,
     "straight": 0.2,
     "upright": 0.4,
@@ -54,13 +54,13 @@ def _collapsed(a: float) -> Shape:
 def _erect(a: float) -> Shape:
     return shape(
         sagittal_class=SMALL_S,
-        sagittal=1.5 * a,
-        collar_y_rad=0.35 * a,
+        sagittal=2.2 * a,
+        collar_y_rad=0.4 * a,
         collar_z_rad=0.08 * curves.late(a, 0.3),
-        pelvis_x_rad=0.06 * a,
+        pelvis_x_rad=0.1 * a,
         balance_z=0.12 * a,
-        elbow_left_rad=-0.16 * a,
-        elbow_right_rad=-0.16 * a,
+        elbow_left_rad=-0.2 * a,
+        elbow_right_rad=-0.2 * a,
         arm_out_left_rad=-0.04 * a,
         arm_out_right_rad=-0.04 * a,
     )
