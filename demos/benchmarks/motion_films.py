@@ -11,7 +11,7 @@ from engine.clips.clip import Clip
 from engine.clips.library import find_clip
 
 FRAMES, COLUMNS = 16, 8
-SIZE_PX = (300, 400)
+SIZE_PX, DISTANCE_M = (300, 400), 3.7
 
 
 def write_worst(figures: list[Figure], clips: dict[str, Clip], folder: Path) -> list[Path]:
@@ -41,7 +41,9 @@ def _draw(renderer, path: Path, case: Case, clips: dict[str, Clip]) -> None:
 
     scenario = scenario_of(case)
     simulation = Simulation(scenario, lambda spec: clips.get(spec.clip) or find_clip(spec.clip))
-    write_strip(renderer, path, simulation, placed_for(Shot(size_px=SIZE_PX), scenario), FRAMES, COLUMNS)
+    shot = placed_for(Shot(size_px=SIZE_PX), scenario)
+    near = shot._replace(camera=(*shot.camera[:2], DISTANCE_M))
+    write_strip(renderer, path, simulation, near, FRAMES, COLUMNS)
 
 
 def _when(figure: Figure) -> str:
