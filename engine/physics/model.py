@@ -3,8 +3,8 @@ everywhere.
 
 All joints are ball joints, so that any pose of any clip is a state, and MuJoCo's kinematics are ours. What a joint
 cannot do (an elbow sideways) is left to the ligaments of `engine.physics.tracking`, which know how far a clip itself
-oversteps. Body parts collide with the floor only: a pose may cross its own arms, and the ball is met by our own impulse
-law (engine.physics.impact), because MuJoCo's soft contacts bounce wrongly at spike speed.
+oversteps, and to the stops of `engine.physics.stops`. Parts lie on the floor and, softly, on one another; the ball is
+met by our own impulse law (engine.physics.impact), because MuJoCo's soft contacts bounce wrongly at spike speed.
 """
 
 from __future__ import annotations
@@ -16,12 +16,13 @@ import mujoco
 import numpy as np
 
 from engine.body.anthropometry import joints_at_identity
-from engine.body.capsules import CAPSULES, body_capsules
+from engine.body.capsules import CAPSULES, Capsules, body_capsules
 from engine.body.mass_parts import point_inertia
 from engine.body.skeleton import JOINT_COUNT, JOINTS, PARENT, SOLE_POINTS, Body
 from engine.core.errors import EnvironmentTrouble
 from engine.maths.ballistics import GRAVITY_MPS2
 from engine.physics.layout import STATE_SIZE
+from engine.physics.stops import PAIRS_BY_NAME, pairs_of
 
 # MuJoCo would write a log file wherever the user happens to be. What it warns of, a state that has left the numbers,
 # shows in the state itself, and the world stops at it by name.
@@ -31,6 +32,10 @@ SUB_STEPS_HZ = 480
 SOLE_BEAD_M = 0.012  # the sole's contact points are small beads that touch the sole's plane from inside
 FOOT_LIFT_M = 0.004
 FLOOR_FRICTION = 0.8  # a shoe on a sports floor: 0.7 to 1.1 (EN 14904 asks for 80 - 110 on its pendulum scale)
+
+# flesh in flesh, where a pose begins so or one lies on one's own arm: it parts slowly, critically damped. What comes
+# fast is stopped by `engine.physics.stops`.
+FLESH_SOLREF = "0.05 1"
 
 # Greatest joint torques, N m for a man of 73 kg, rounded: isometric maxima of young men in the stronger direction (hip,
 # knee, ankle after Anderson, Madigan and Nussbaum 2007; trunk after Kumar, Dufresne and Van Schoor 1995;
@@ -53,6 +58,8 @@ class RagdollModel:
     state_size: int
     positions: slice  # of a state: qpos, root (3,) then quaternions (J, 4)
     velocities: slice  # of a state: qvel, root linear (3,) world, then angular (J, 3), each in its own joint's frame
+    capsules: Capsules
+    pairs: np.ndarray  # (P, 2) of them that stop each other
     mass_kg: float
     inertia_kgm2: np.ndarray  # (J,) seen by each joint's servo
     strength_nm: np.ndarray  # (J,)
@@ -92,6 +99,8 @@ def _make(body, key):
         state_size=size,
         positions=slice(before, before + m.nq),
         velocities=slice(before + m.nq, before + m.nq + m.nv),
+        capsules=body_capsules(body),
+        pairs=pairs_of(m),
         mass_kg=float(body.part_mass_kg.sum()),
         inertia_kgm2=servo_inertia_kgm2(body),
         strength_nm=_strength_nm(body),
@@ -161,7 +170,7 @@ def xml_of(body: Body) -> str:
             '    <flag autoreset="disable" eulerdamp="disable"/>',
             "  </option>",
             "  <default>",
-            # contype 0: parts meet the floor (whose contype is 1) and never one another
+            # contype 0: parts meet the floor (whose contype is 1), and one another only where a pair says so
             f'    <geom contype="0" conaffinity="1" friction="{FLOOR_FRICTION} 0.005 0.0001" condim="3"'
             ' solref="0.008 1" solimp="0.95 0.99 0.002"/>',
             "  </default>",
@@ -169,9 +178,16 @@ def xml_of(body: Body) -> str:
             '    <geom name="floor" type="plane" size="0 0 1" contype="1" conaffinity="0"/>',
             *element(0, 2),
             "  </worldbody>",
+            "  <contact>",
+            *[_pair(one, other) for one, other in PAIRS_BY_NAME],
+            "  </contact>",
             "</mujoco>",
         ]
     )
+
+
+def _pair(one, other):
+    return f'    <pair geom1="{one}" geom2="{other}" condim="1" solref="{FLESH_SOLREF}" solimp="0.9 0.95 0.01"/>'
 
 
 def _text(values):

@@ -15,7 +15,7 @@ import numpy as np
 from engine.body.skeleton import JOINT_COUNT, PARENT, Pose
 from engine.maths import rotations
 from engine.maths.springs import half_sine
-from engine.physics import tracking
+from engine.physics import stops, tracking
 from engine.physics.model import SUB_STEPS_HZ, RagdollModel
 
 _KIND = mujoco.mjtState.mjSTATE_INTEGRATION
@@ -70,6 +70,7 @@ def step(
     h = dt_s / count
     m.opt.timestep = h
     body, target_rotations = model.body, np.ascontiguousarray(target.rotations, dtype=float)
+    stops.keep_own(model, target_rotations)
     torque, armature = np.zeros(m.nv), np.zeros(m.nv)
     momentum = _momentum(model)
     for k in range(count):
@@ -81,7 +82,9 @@ def step(
         d.qfrc_applied[:] = torque
         for push in pushes:
             _apply(model, push, push.since_s + k * h, h)
+        qpos_before = d.qpos.copy()
         mujoco.mj_step(m, d)
+        stops.hold(model, qpos_before, target_rotations, h)
         momentum = _balance(model, momentum, h)
         if trace is not None:
             trace[k] = tracking.part_velocities(PARENT, body.offset_m, body.part_com_m, d.qpos, d.qvel)

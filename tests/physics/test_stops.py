@@ -1,0 +1,194 @@
+"""Stops: limits hold, arms stay out, no energy is made; the impulses are those of another library."""
+
+import math
+
+import mujoco
+import numpy as np
+import pytest
+from scipy.optimize import nnls
+
+from engine.body import kinematics, limits
+from engine.body.capsules import CAPSULES, capsules_at
+from engine.body.skeleton import ELBOWS, HEAD, JOINT_COUNT, PARENT, SHOULDERS, WRISTS, Pose
+from engine.clips.mirror import mirror_pose
+from engine.maths import quaternion
+from engine.physics import ragdoll, stops
+from engine.physics.impact import Push
+from tests.physics.standing import BODY, MODEL, SHAPES, TICK_S, kinetic_energy, momentum, standing
+
+NV = MODEL.mujoco_model.nv
+
+
+@pytest.fixture
+def weightless(monkeypatch):
+    monkeypatch.setattr(MODEL.mujoco_model.opt, "gravity", np.zeros(3))
+    yield
+    MODEL.mujoco_model.opt.gravity[:] = (0.0, 0.0, -9.80665)
+
+
+def depths_m(state):
+    """(P,) of all pairs that stop each other."""
+    out = np.empty(len(MODEL.pairs))
+    stops.depths_into(PARENT, BODY.offset_m, ragdoll.pose_of(MODEL, state).rotations, SHAPES, MODEL.pairs, out)
+    return out
+
+
+def inside_limits(rng):
+    """A pose in the air with every joint somewhere inside its range, but for a thousandth."""
+    low, high = BODY.limit_low_rad[1:], BODY.limit_high_rad[1:]
+    asked = np.clip(rng.normal(0.0, 0.5, (JOINT_COUNT - 1, 3)), 0.999 * low, 0.999 * high)
+    rotations = np.array([quaternion.IDENTITY, *(limits.from_components(*c) for c in asked)])
+    return Pose(np.array([0.0, 0.0, 20.0]), rotations)
+
+
+def whirling(rng, spin_radps):
+    """Such a pose, its joints spinning at random."""
+    pose = inside_limits(rng)
+    velocities = np.zeros(NV)
+    velocities[6:] = rng.normal(size=NV - 6) * spin_radps
+    return pose, ragdoll.state_of(MODEL, pose, velocities)
+
+
+def guarding():
+    """Standing, forearms up, hands in front of the face."""
+    pose = standing()
+    rotations = pose.rotations.copy()
+    for side, sign in enumerate((1.0, -1.0)):
+        rotations[SHOULDERS[side]] = limits.from_components(-0.35 * sign, -0.9, 0.0)
+        rotations[ELBOWS[side]] = limits.from_components(0.0, -1.9, 0.0)
+    return Pose(pose.root_m, rotations)
+
+
+@pytest.mark.parametrize("seed", range(6))
+def test_limp_and_whirling_no_joint_passes_its_limits_and_no_arm_goes_in(seed):
+    """Spins of 8 rad/s at every joint, nothing that holds: more than any ball does."""
+    pose, state = whirling(np.random.default_rng(seed), 8.0)
+    began = depths_m(state)
+    for _ in range(30):
+        state = ragdoll.step(MODEL, state, pose, 0.0, 1.0, TICK_S)
+        assert math.degrees(limits.excess_rad(BODY, ragdoll.pose_of(MODEL, state).rotations).max()) < 1.5
+        assert (depths_m(state) - began).max() < 0.005
+
+
+def test_a_hand_thrown_at_the_face_stops_at_it():
+    """A ball's impulse against both hands, from ahead: they are pressed against the head, never into it."""
+    pose = guarding()
+    state, nearest = ragdoll.start(MODEL, pose, pose, TICK_S), np.inf
+    pushes = [
+        Push(w, np.array([0.0, 0.0, -0.08]), np.array([-6.0, -4.0 * sign, 2.0]), 0.0, 0.01)
+        for w, sign in zip(WRISTS, (1.0, -1.0), strict=True)
+    ]
+    heads = [n for n, pair in enumerate(MODEL.pairs) if CAPSULES.index("head") in pair]
+    for k in range(24):
+        blow = tuple(push._replace(since_s=k * TICK_S) for push in pushes)
+        state = ragdoll.step(MODEL, state, pose, 1.0, 1.0, TICK_S, blow)
+        ends = capsules_at(SHAPES, *kinematics.joints_of(BODY, ragdoll.pose_of(MODEL, state)))
+        for n in heads:
+            a, b = MODEL.pairs[n]
+            nearest = min(nearest, stops._nearest(ends[a], ends[b], SHAPES.radius_m[a] + SHAPES.radius_m[b])[2])
+    assert -0.005 < nearest < 0.02  # it did come to touching
+
+
+def test_what_begins_inside_comes_out_slowly_or_stays_as_the_target_has_it():
+    crossed = standing()
+    rotations = crossed.rotations.copy()
+    rotations[SHOULDERS[0]] = limits.from_components(-0.45, -0.2, 0.0)  # the left arm through the belly
+    inside = Pose(crossed.root_m + [0.0, 0.0, 30.0], rotations)
+    state = ragdoll.start(MODEL, inside, inside, TICK_S)
+    began = depths_m(state).max()
+    assert began > 0.05
+    kept = state
+    for _ in range(24):
+        kept = ragdoll.step(MODEL, kept, inside, 1.0, 1.0, TICK_S)
+        assert np.abs(kept[MODEL.velocities][3:]).max() < 0.5
+    assert depths_m(kept).max() == pytest.approx(began, abs=0.003)
+    depths, speeds = [], []
+    for _ in range(24):
+        state = ragdoll.step(MODEL, state, crossed, 1.0, 1.0, TICK_S)
+        depths.append(depths_m(state).max())
+        speeds.append(np.abs(ragdoll.read(MODEL, state)[1] - [0.0, 0.0, -9.80665 * len(depths) * TICK_S]).max())
+    assert max(depths) < began + 0.001
+    assert depths[-1] < began - 0.02
+    assert max(speeds) < 4.0
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_stops_make_no_energy_and_no_momentum(seed, weightless):
+    _, state = whirling(np.random.default_rng(seed), 15.0)
+    linear, _ = momentum(MODEL, state)
+    energies = [kinetic_energy(MODEL, state)]
+    for _ in range(20):
+        state = ragdoll.step(MODEL, state, ragdoll.pose_of(MODEL, state), 0.0, 1.0, TICK_S)
+        energies.append(kinetic_energy(MODEL, state))
+        np.testing.assert_allclose(momentum(MODEL, state)[0], linear, atol=1e-9)
+    assert np.diff(energies).max() < 3e-3 * energies[0]  # what the integrator leaves open
+    assert energies[-1] < 0.7 * energies[0]
+
+
+def test_the_impulses_are_those_of_non_negative_least_squares():
+    """x >= 0 that minimises x A x / 2 - x r is the same as nnls of a root of A: SciPy's active sets, not our sweeps."""
+    rng = np.random.default_rng(5)
+    for count in (1, 3, 8):
+        root = rng.normal(size=(NV, NV))
+        inverse = root @ root.T / NV + np.eye(NV)
+        rows, least, qvel = rng.normal(size=(count, NV)), rng.normal(size=count), rng.normal(size=NV)
+        upper = np.linalg.cholesky(rows @ inverse @ rows.T).T
+        impulse, _ = nnls(upper, np.linalg.solve(upper.T, least - rows @ qvel))
+        after = qvel.copy()
+        stops.meet(rows, rows @ inverse, least, after)
+        np.testing.assert_allclose(after, qvel + inverse @ rows.T @ impulse, atol=1e-6)
+        assert (rows @ after - least).min() > -1e-6
+
+
+def test_a_row_is_how_the_gap_or_the_angle_changes_and_pushes_nobody_about():
+    """Rows against finite differences through MuJoCo's own way of moving places by velocities; and what an impulse
+    along one does to the body's momentum, both kinds: nothing."""
+    rng = np.random.default_rng(8)
+    pose = inside_limits(rng)
+    qpos = ragdoll.state_of(MODEL, pose, np.zeros(NV))[MODEL.positions]
+    qvel = rng.normal(size=NV) * 30.0
+    rows, least = np.zeros((stops.MOST_ROWS, NV)), np.empty(stops.MOST_ROWS)
+    count = stops.find(
+        PARENT, BODY.offset_m, BODY.limit_low_rad, BODY.limit_high_rad, pose.rotations, SHAPES, MODEL.pairs,
+        qpos, qvel, 1 / 480, rows, least,
+    )  # fmt: skip
+    assert count > 5
+    moved = qpos.copy()
+    step_s = 1e-7
+    mujoco.mj_integratePos(MODEL.mujoco_model, moved, qvel, step_s)
+
+    def lengths(q):
+        ends = capsules_at(SHAPES, *kinematics.joints_of(BODY, Pose(q[:3], q[3:].reshape(-1, 4))))
+        gaps = [stops._nearest(ends[a], ends[b], SHAPES.radius_m[a] + SHAPES.radius_m[b])[2] for a, b in MODEL.pairs]
+        angles = [limits.components(r) for r in q[3:].reshape(-1, 4)]
+        return np.concatenate([gaps, np.ravel(angles)])
+
+    changes = (lengths(moved) - lengths(qpos)) / step_s
+    for row in rows[:count]:
+        assert np.abs(np.abs(changes) - abs(row @ qvel)).min() < 1e-3
+        answer = np.empty((1, NV))
+        ragdoll.state_of(MODEL, pose, qvel)
+        MODEL.mujoco_model.dof_armature[:] = 0.0
+        mujoco.mj_fwdPosition(MODEL.mujoco_model, MODEL.data)
+        mujoco.mj_solveM(MODEL.mujoco_model, MODEL.data, answer, row[None])
+        for kind in momentum(MODEL, ragdoll.state_of(MODEL, pose, answer[0])):
+            np.testing.assert_allclose(kind, 0.0, atol=1e-8)
+
+
+def test_a_response_mirrored_is_the_response_to_the_mirrored_blow():
+    pose = guarding()
+    rotations = pose.rotations.copy()
+    rotations[HEAD] = quaternion.from_rotation_vector((0.1, 0.2, 0.3))
+    pose = Pose(pose.root_m, rotations)
+    push = Push(WRISTS[0], np.array([0.01, 0.02, -0.08]), np.array([-6.0, -3.0, 1.0]), 0.0, 0.01)
+    other = Push(WRISTS[1], push.place_m * [1, -1, 1], push.impulse_Ns * [1, -1, 1], 0.0, 0.01)
+    state, mirrored = (ragdoll.start(MODEL, p, p, TICK_S) for p in (pose, mirror_pose(pose)))
+    for k in range(10):
+        since_s = k * TICK_S
+        state = ragdoll.step(MODEL, state, pose, 1.0, 1.0, TICK_S, (push._replace(since_s=since_s),))
+        blow = (other._replace(since_s=since_s),)
+        mirrored = ragdoll.step(MODEL, mirrored, mirror_pose(pose), 1.0, 1.0, TICK_S, blow)
+    ours = kinematics.joints_of(BODY, ragdoll.pose_of(MODEL, state))[0]
+    theirs = kinematics.joints_of(BODY, mirror_pose(ragdoll.pose_of(MODEL, mirrored)))[0]
+    assert np.abs(ours - kinematics.joints_of(BODY, pose)[0]).max() > 0.05
+    np.testing.assert_allclose(ours, theirs, atol=1e-6)
