@@ -225,7 +225,6 @@ class Blend(NamedTuple):
 class Response(NamedTuple):
     """The dynamic response (4.1.2; Zordan et al. 2005)."""
 
-    duration_s: Annotated[float, Constant("s", "4.2", "physics alone, 50 - 100 ms")] = 0.08
     restitution: Annotated[float, Constant("1", "A8", "ball against body")] = 0.55
     friction: Annotated[float, Constant("1", "A8", "ball against body")] = 0.5
     contact_s: Annotated[float, Constant("s", "A8", "how long the ball presses, half a sine; 0 is an instant")] = 0.010

@@ -6,6 +6,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from behaviours.scenario import CharacterSpec
 from behaviours.settings import Settings
 from behaviours.threats import make_threat
 from behaviours.timing import ease, time_to_contact_s
@@ -35,7 +36,7 @@ def clock_of(settings: Settings) -> Clock:
     """From the settings in force, for a volleyball from straight ahead."""
     r, t = settings.recovery, settings.timing
     contact = time_to_contact_s(make_threat("volleyball", SPEED_MPS, 0.5).speed_norm, 1.0, t)
-    response = contact + settings.response.duration_s
+    response = contact + CharacterSpec().response_s
     part_one = response + r.part_one_s
     returning_s = r.part_two_s / (1.0 - r.part_one_share)
     return Clock(
