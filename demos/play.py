@@ -1,228 +1,289 @@
-"""A scenario to play with: what each key does, throwing at what is under the cursor, going back in time.
+"""The window on a scenario: events come in, time passes, a scene and its panels go out. Which key does what stands in
+`demos.window.help`, what there is to act on in `demos.window.session`.
 
-It is a `Show` for `engine.render.loop`: events come in, ticks are run, a scene goes out. It never asks what time it is.
+It is a `Show` and a `Layer` for `engine.render.loop`, and never asks what time it is.
 """
 
 from __future__ import annotations
 
-import math
+import time
 from collections.abc import Callable
 from pathlib import Path
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from behaviours.components import Character, Phase, Posture, Reaction
-from behaviours.playing import body_of
-from behaviours.simulation import Simulation, apply_command
-from demos.stage import GHOSTS, floor_under, pelvis_m, scene_of, shown_pose
-from engine.body.capsules import body_capsules, capsules_at
-from engine.body.kinematics import joints_of
-from engine.core.clock import TICK_RATE_HZ, Clock
-from engine.core.journal_file import save_journal
-from engine.core.timeline import Timeline
-from engine.maths.ballistics import GRAVITY_MPS2
-from engine.maths.shapes import ray_capsule
-from engine.render.camera import Camera, ray_through
-from engine.render.capture import write_png
-from engine.render.events import CTRL, LEFT_BUTTON, Event, Key, MouseButton, MouseMove
+from behaviours.scenario import Scenario
+from demos.stage import floor_under, scene_of
+from demos.window.help import ACTIONS, draw_help
+from demos.window.keeping import Keeper
+from demos.window.marks import draw_marks
+from demos.window.panels import Panel, make_panels
+from demos.window.phases import COLOURS
+from demos.window.plots import draw_plots
+from demos.window.session import Session
+from demos.window.throwing import character_under, throw_speed_mps
+from demos.window.timeline_bar import HEIGHT, TimelineBar
+from engine.core.clock import TICK_RATE_HZ
+from engine.render.camera import Camera
+from engine.render.events import CTRL, LEFT_BUTTON, Drop, Event, Key, MouseButton, MouseMove
 from engine.render.scene import FloorStyle, Scene
 
-RATES = (0.05, 0.1, 0.25, 0.5, 1.0, 2.0)
-SLOWEST_MPS, FASTEST_MPS, FULL_HOLD_S = 12.0, 30.0, 0.8  # how hard a throw is, by how long it was held
-HELD_AHEAD_M = 0.5  # a ball leaves the hand this far in front of the eye
-FARTHEST_M = 50.0
-HELP = (
-    "Space pause   , . or arrows step   - = speed   Backspace restart",
-    "drag orbit   right drag pan   wheel zoom   X centre",
-    "F or Ctrl-click throw at the cursor (hold for speed)",
-    "G ghosts   R save recording   P screenshot   F1 help",
-)
+if TYPE_CHECKING:
+    from engine.render.ui.widgets import Ui
+
+PANEL_WIDTH, MARGIN = 300.0, 10.0
+PLOT_WIDTH = 230.0
+TIMELINE_HEIGHT = HEIGHT + 20.0
 
 
 class Play:
-    """The state of the window that is not the world's: the clock, the cursor, what is held down."""
+    """The window's own state: which panel is open, what is held down, what is being kept."""
 
-    def __init__(self, simulation: Simulation, timeline: Timeline, picture: Callable[[], np.ndarray], folder: Path):
-        """`picture` gives the last frame, for screenshots; those and recordings go into `folder`."""
-        self.world, self.timeline, self.picture, self.folder = simulation.world, timeline, picture, folder
-        self.clock = Clock()
-        self.ghosts: tuple[str, ...] = ()
+    def __init__(self, session: Session):
+        self.session = session
+        self.keeper = Keeper(session)
         self.floor = FloorStyle("gym")
-        self.help = True
-        self.cursor_px = (0.0, 0.0)
+        self.help = False
+        self.tab = "Threat"
         self.held_s: float | None = None  # how long a throw has been held
-        self.notice, self.notice_s = "", 0.0
+        self.timeline = TimelineBar()
+        self._panels: list[Panel] | None = None
 
-    # --- the loop's three questions ------------------------------------------------------------------------------
+    @property
+    def panels(self) -> list[Panel]:
+        """Made when they are first needed: some import much."""
+        if self._panels is None:
+            self._panels = make_panels()
+        return self._panels
+
+    @property
+    def panel(self) -> Panel | None:
+        """The one that is open; none while panels are away."""
+        if not self.session.view.panels or self._panels is None:
+            return None
+        return next((panel for panel in self._panels if panel.title == self.tab), self._panels[0])
+
+    # --- what the loop asks --------------------------------------------------------------------------------------
 
     def handle(self, events: list[Event], camera: Camera, size_px: tuple[int, int]) -> None:
+        session = self.session
+        session.camera, session.size_px = camera, size_px
         for event in events:
-            if isinstance(event, MouseMove):
-                self.cursor_px = (event.x_px, event.y_px)
-            elif isinstance(event, MouseButton) and event.button == LEFT_BUTTON:
-                self.cursor_px = (event.x_px, event.y_px)
-                if event.pressed and event.modifiers & CTRL:
-                    self.held_s = 0.0
-                elif not event.pressed:
-                    self._let_go(camera, size_px)
+            if isinstance(event, (MouseMove, MouseButton)):
+                session.cursor_px = (event.x_px, event.y_px)
+            if isinstance(event, MouseButton) and event.button == LEFT_BUTTON:
+                self._button(event)
             elif isinstance(event, Key) and event.name == "f" and not event.modifiers:
-                if event.action == "press":
-                    self.held_s = 0.0
-                elif event.action == "release":
-                    self._let_go(camera, size_px)
+                self._hold(event.action)
             elif isinstance(event, Key) and event.action != "release":
-                self._press(event.name)
+                self._press(event)
+            elif isinstance(event, Drop):
+                self._drop(event.paths)
 
     def advance(self, passed_s: float) -> None:
         if self.held_s is not None:
             self.held_s += passed_s
-        self.notice_s = max(0.0, self.notice_s - passed_s)
-        for _ in range(self.clock.ticks_due(passed_s)):
-            self.timeline.advance()
+        self.session.advance(passed_s)
 
     def scene(self) -> Scene:
-        scene = scene_of(self.world, 1.0 if self.clock.paused else self.clock.alpha, self.ghosts)
+        session = self.session
+        alpha = 1.0 if session.paused else session.clock.alpha
+        scene = scene_of(session.world, alpha, session.view.ghosts)
         scene.floor = floor_under(scene, self.floor.style)
-        scene.captions.append(("top-left", self._status()))
-        if self.help:
-            scene.captions.append(("bottom-left", "\n".join(HELP)))
-        if self.notice_s > 0.0:
-            scene.captions.append(("top-right", self.notice))
+        draw_marks(scene, session)
+        drawn_into = getattr(self.panel, "drawn_into", None)
+        if drawn_into:
+            drawn_into(scene, session)
         return scene
 
-    def centre_m(self) -> np.ndarray:
-        """What the camera keeps up with: the first character, at chest height."""
-        x, y, _ = pelvis_m(self.world, int(self.world.rows(Character)[0]))
-        return np.array([x, y, 0.95])
+    def centre_m(self) -> np.ndarray | None:
+        """What the camera goes along with; None to stay."""
+        return self.session.centre_m() if self.session.view.follow else None
 
-    # --- keys ----------------------------------------------------------------------------------------------------
+    def take(self, events: list[Event]) -> list[Event]:
+        """The open panel's part of the events that no widget took."""
+        handle = getattr(self.panel, "handle", None)
+        if handle is None:
+            return events
+        for event in events:
+            if isinstance(event, (MouseMove, MouseButton)):
+                self.session.cursor_px = (event.x_px, event.y_px)
+        return [event for event in events if not handle(event, self.session)]
 
-    def _press(self, name: str) -> None:
-        keys = {
-            "space": self._pause,
-            ".": lambda: self._step(1),
-            "right": lambda: self._step(1),
-            ",": lambda: self._step(-1),
-            "left": lambda: self._step(-1),
-            "-": lambda: self._change_rate(-1),
-            "=": lambda: self._change_rate(1),
-            "backspace": self._restart,
-            "g": self._toggle_ghosts,
-            "r": self._save_recording,
-            "p": self._save_picture,
-            "f1": self._toggle_help,
-        }
-        if name in keys:
-            keys[name]()
+    def keep(self, picture: Callable[[], np.ndarray], passed_s: float) -> None:
+        """The picture is drawn and nothing lies on it yet: the moment for screenshots and films."""
+        self.keeper.keep(picture, passed_s)
 
-    def _pause(self) -> None:
-        self.clock.paused = not self.clock.paused
+    def draw(self, ui: Ui) -> None:
+        """Everything that lies on the picture."""
+        session, view = self.session, self.session.view
+        _draw_status(ui, self)
+        bottom = ui.height - MARGIN
+        if view.timeline:
+            bottom -= TIMELINE_HEIGHT
+            with ui.area("time", MARGIN, bottom, ui.width - 2 * MARGIN, TIMELINE_HEIGHT):
+                self.timeline.draw(ui, session)
+            bottom -= MARGIN
+        if view.plots and ui.height > 420.0:
+            with ui.area("plots", MARGIN, bottom - 182.0, PLOT_WIDTH, 182.0, mouse=False):
+                draw_plots(ui, session)
+        if view.panels:
+            self._draw_panel(ui, bottom)
+        _draw_toasts(ui, session)
+        if self.help:
+            draw_help(ui)
 
-    def _step(self, ticks: int) -> None:
-        self.clock.paused = True
-        if ticks > 0:
-            self.clock.step(ticks)
-        else:
-            self.timeline.step_back(-ticks)
+    def _draw_panel(self, ui: Ui, bottom: float) -> None:
+        with ui.area("panels", ui.width - PANEL_WIDTH - MARGIN, MARGIN, PANEL_WIDTH, bottom - MARGIN):
+            self.tab = ui.tabs([panel.title for panel in self.panels], self.tab)
+            ui.gap()
+            panel = self.panel
+            if panel:
+                with ui.scrolled(panel.title):
+                    panel.draw(ui, self.session)
 
-    def _change_rate(self, by: int) -> None:
-        nearest = min(range(len(RATES)), key=lambda i: abs(RATES[i] - self.clock.rate))
-        self.clock.rate = RATES[min(max(nearest + by, 0), len(RATES) - 1)]
+    # --- what the user does --------------------------------------------------------------------------------------
 
-    def _restart(self) -> None:
-        self.timeline.seek(self.timeline.first_tick)
+    def _button(self, event: MouseButton) -> None:
+        """Ctrl holds a throw; a double click selects."""
+        if event.pressed and event.modifiers & CTRL:
+            self.held_s = 0.0
+        elif event.pressed and event.clicks == 2:
+            met = character_under(self.session.world, *self.session.ray())
+            if met:
+                rows = [int(row) for row in self.session.rows()]
+                self.session.selected = rows.index(met[0])
+        elif not event.pressed:
+            self._let_go()
 
-    def _toggle_ghosts(self) -> None:
-        self.ghosts = () if self.ghosts else GHOSTS
+    def _hold(self, action: str) -> None:
+        if action == "press":
+            self.held_s = 0.0
+        elif action == "release":
+            self._let_go()
 
-    def _toggle_help(self) -> None:
-        self.help = not self.help
-
-    def _save_recording(self) -> None:
-        path = _free_name(self.folder, "recording", ".brace")
-        save_journal(self.timeline.journal, path)
-        self._say(f"saved {path.name}")
-
-    def _save_picture(self) -> None:
-        path = _free_name(self.folder, "screenshot", ".png")
-        write_png(path, self.picture())
-        self._say(f"saved {path.name}")
-
-    def _say(self, notice: str) -> None:
-        self.notice, self.notice_s = notice, 3.0
-
-    def _status(self) -> str:
-        row = int(self.world.rows(Character)[0])
-        phase = Phase(int(self.world[Reaction].phase[row])).name.lower().replace("_", " ")
-        words = [f"{self.world.tick / TICK_RATE_HZ:.2f} s", phase]
-        if self.clock.paused:
-            words.append("paused")
-        elif self.clock.rate != 1.0:
-            words.append(f"{self.clock.rate:g} x")
-        if self.held_s is not None:
-            words.append(f"throw {throw_speed_mps(self.held_s):.0f} m/s")
-        return "   ".join(words)
-
-    # --- throwing ------------------------------------------------------------------------------------------------
-
-    def _let_go(self, camera: Camera, size_px: tuple[int, int]) -> None:
+    def _let_go(self) -> None:
         """Throws, if a throw was being held."""
-        if self.held_s is None:
-            return
-        speed_mps, self.held_s = throw_speed_mps(self.held_s), None
-        eye, ray = ray_through(camera, self.cursor_px, size_px)
-        row, target = under_cursor(self.world, eye, ray)
-        start = eye + HELD_AHEAD_M * ray
-        self.timeline.command({
-            "do": "throw",
-            "at": int(np.flatnonzero(self.world.rows(Character) == row)[0]),
-            "position_m": start.tolist(),
-            "velocity_mps": velocity_to(start, target, speed_mps).tolist(),
-        })  # fmt: skip
-        self.clock.paused = False
+        if self.held_s is not None:
+            held_s, self.held_s = self.held_s, None
+            self.session.throw(throw_speed_mps(held_s))
+
+    def _press(self, event: Key) -> None:
+        action = ACTIONS.get(("ctrl-" if event.modifiers & CTRL else "") + event.name)
+        if action:
+            self._act(action)
+
+    def _act(self, action: str) -> None:
+        session, view = self.session, self.session.view
+        deeds: dict[str, Callable[[], Any]] = {
+            "pause": session.pause,
+            "step": lambda: session.step(1),
+            "step_back": lambda: session.step(-1),
+            "slower": lambda: session.change_rate(-1),
+            "faster": lambda: session.change_rate(1),
+            "restart": session.restart,
+            "live": lambda: session.seek(session.run.last_tick),
+            "send": session.send,
+        }
+        if action in deeds:
+            deeds[action]()
+        elif action in ("screenshot", "film", "scenario", "recording"):
+            session.ask(action)
+        elif action in ("panels", "follow", "labels"):
+            setattr(view, action, not getattr(view, action))
+        elif action == "ghosts":
+            view.ghost_clip = view.ghost_rules = view.ghost_sustained = not view.ghosts
+        elif action == "slow_motion":
+            session.slow_motion.enabled = not session.slow_motion.enabled
+            session.say(f"slow motion at the blow: {'on' if session.slow_motion.enabled else 'off'}")
+        elif action == "auto_fire":
+            session.auto_fire = not session.auto_fire
+        elif action == "help":
+            self.help = not self.help
+        elif action == "close":
+            self.help = False
+
+    def _drop(self, paths: tuple[str, ...]) -> None:
+        """The first file is played; what was shown stays where it cannot be."""
+        path = str(Path(paths[0]).resolve())
+        if self.session.play_clip(path):
+            self.session.dropped = [path, *(other for other in self.session.dropped if other != path)]
+            self.session.say(f"plays {Path(path).name}")
+
+    # --- from one start to the next ------------------------------------------------------------------------------
+
+    def memory(self) -> dict[str, Any]:
+        """What the user's settings keep, panels' own included."""
+        session = self.session
+        own = {
+            panel.title: panel.memory() for panel in self._panels or () if hasattr(panel, "memory")
+        }  # fmt: skip
+        return {
+            "view": vars(session.view),
+            "tab": self.tab,
+            "slow_motion": session.slow_motion.enabled,
+            "auto_fire_s": session.auto_fire_s,
+            "auto_vary": session.auto_vary,
+            "panels": own,
+        }
+
+    def remember(self, kept: dict[str, Any]) -> None:
+        """The same, back again; what does not fit is passed over."""
+        from demos.window.memory import taken_over
+
+        taken_over(self.session.view, kept.get("view"))
+        taken_over(self.session.slow_motion, {"enabled": kept.get("slow_motion")})
+        taken_over(self.session, {key: kept.get(key) for key in ("auto_fire_s", "auto_vary")})
+        taken_over(self, {"tab": kept.get("tab")})
+        self._kept_panels = kept.get("panels")
 
 
-def throw_speed_mps(held_s: float) -> float:
-    """From a lob at once to a spike at full hold."""
-    return SLOWEST_MPS + (FASTEST_MPS - SLOWEST_MPS) * min(held_s / FULL_HOLD_S, 1.0)
+def _draw_status(ui: Ui, play: Play) -> None:
+    """One line at the top left: when, what, how fast, what is held."""
+    session = play.session
+    with ui.area("status", MARGIN, MARGIN, 460.0, paper=False, mouse=False):
+        ui.chip(f"{session.tick / TICK_RATE_HZ:.2f} s")
+        ui.beside()
+        ui.chip(session.doing(session.row), COLOURS[session.phase])
+        for words in _states(play):
+            ui.beside()
+            ui.chip(words)
+        if not session.view.panels and not play.help:
+            ui.chip("Tab panels   F1 help   F throw", faint=True)
 
 
-def under_cursor(world, eye: np.ndarray, ray: np.ndarray) -> tuple[int, np.ndarray]:
-    """Whom a ray from the eye meets first, and where (3,); else who is nearest to it, and the point beside them."""
-    nearest_m, nearest_row = math.inf, -1
-    for row in world.rows(Character, Posture):
-        body = body_of(world, row)
-        capsules = body_capsules(body)
-        ends = capsules_at(capsules, *joints_of(body, shown_pose(world, row)))
-        for (start, end), radius in zip(ends, capsules.radius_m, strict=True):
-            away_m = ray_capsule(eye, ray, start, end, radius, FARTHEST_M)
-            if away_m < nearest_m:
-                nearest_m, nearest_row = away_m, int(row)
-    if nearest_row >= 0:
-        return nearest_row, eye + nearest_m * ray
-    rows = [int(row) for row in world.rows(Character, Posture)]
-    depths = {row: max(1.0, float(np.sum((pelvis_m(world, row) - eye) * ray))) for row in rows}
-    beside = {row: float(np.sum((eye + depths[row] * ray - pelvis_m(world, row)) ** 2)) for row in rows}
-    row = min(rows, key=beside.__getitem__)
-    return row, eye + depths[row] * ray
+def _states(play: Play) -> list[str]:
+    session, words = play.session, []
+    if session.paused:
+        words.append("paused")
+    elif session.slow_motion.share < 0.95:
+        words.append("slow motion")
+    elif session.clock.rate != 1.0:
+        words.append(f"{session.clock.rate:g} x")
+    if session.tick < session.run.last_tick:
+        words.append("replay")
+    if session.busy:
+        words.append("re-running")
+    if session.filming:
+        words.append("filming")
+    if play.held_s is not None:
+        words.append(f"throw {throw_speed_mps(play.held_s):.0f} m/s")
+    return words
 
 
-def velocity_to(start: np.ndarray, target: np.ndarray, speed_mps: float) -> np.ndarray:
-    """The velocity that takes a ball without drag from start to target in the time that the straight way would take."""
-    way = target - start
-    flight_s = max(float(np.sqrt(np.sum(way * way))) / speed_mps, 1e-3)
-    return way / flight_s - 0.5 * np.array(GRAVITY_MPS2) * flight_s
+def _draw_toasts(ui: Ui, session: Session) -> None:
+    """Lines at the top, left of the panel, newest last."""
+    if session.toasts.lines:
+        right = ui.width - MARGIN - (PANEL_WIDTH + MARGIN if session.view.panels else 0.0)
+        width = min(420.0, right - MARGIN)
+        with ui.area("toasts", right - width, MARGIN, width, mouse=False):
+            for line in session.toasts.lines:
+                ui.text(line.text, alarm=line.alarm)
 
 
-def _free_name(folder: Path, stem: str, ending: str) -> Path:
-    """`stem-1.ending`, or the next number that is not taken."""
-    number = 1
-    while (folder / f"{stem}-{number}{ending}").exists():
-        number += 1
-    return folder / f"{stem}-{number}{ending}"
-
-
-def play_of(simulation: Simulation, journal, picture: Callable[[], np.ndarray], folder: Path) -> Play:
-    """A Play whose every tick and throw is recorded and can be gone back to."""
-    timeline = Timeline(simulation.world, simulation.step, apply_command, journal)
-    return Play(simulation, timeline, picture, folder)
+def play_of(
+    scenario: Scenario, folder: Path, save_in: Path, stopwatch: Callable[[], float] = time.perf_counter
+) -> Play:
+    """A window's play of a scenario; see `Session`. BadInput or EnvironmentTrouble where its clips cannot be found."""
+    return Play(Session(scenario, folder, save_in, stopwatch))

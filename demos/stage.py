@@ -13,7 +13,7 @@ from behaviours.components import Character, Feet, Flight, Phase, Posture, React
 from behaviours.playing import body_of, clip_pose, clip_time_s
 from engine.body.kinematics import com_of, joints_of
 from engine.body.skeleton import Body, Pose
-from engine.body.support import polygon_of
+from engine.body.support import polygon_of, sole_points
 from engine.maths import rotations
 from engine.render.scene import (
     BLEND_GREY,
@@ -31,6 +31,7 @@ from engine.render.scene import (
 
 GHOSTS = ("clip", "rules", "sustained")
 GHOST_ALPHA = 0.35
+STANDING_M = 0.012  # a sole as low as this stands on the ground
 # the thesis's colours of fig. 4.1 for the floor marks: what the character is doing now
 PHASE_COLOURS = {
     Phase.PLAY: CLIP_BLUE,
@@ -76,6 +77,12 @@ def shown_pose(world, row: int, alpha: float = 1.0) -> Pose:
     )
 
 
+def standing(world, row: int, body: Body, positions: np.ndarray, orientations: np.ndarray) -> np.ndarray:
+    """(2,) bool: the feet that carry: flagged as planted, or with the sole on the ground."""
+    low_m = sole_points(body, positions, orientations)[..., 2].min(axis=1)
+    return world[Feet].planted[row] | (low_m < STANDING_M)
+
+
 def pelvis_m(world, row: int) -> np.ndarray:
     """Where a character is, for cameras to follow."""
     return world[Posture].root_m[row].copy()
@@ -83,7 +90,7 @@ def pelvis_m(world, row: int) -> np.ndarray:
 
 def _balance(world, row: int, body: Body, pose: Pose, positions: np.ndarray, orientations: np.ndarray) -> Balance:
     phase = Phase(int(world[Reaction].phase[row]))
-    polygon = polygon_of(body, positions, orientations, world[Feet].planted[row])
+    polygon = polygon_of(body, positions, orientations, standing(world, row, body, positions, orientations))
     wanted = world[Sustained].com_wanted_m[row].copy() if phase in PROTECTING else None
     return Balance(polygon, com_of(body, pose), wanted, PHASE_COLOURS.get(phase, SUSTAINED_ORANGE))
 

@@ -11,6 +11,8 @@ from engine.core.errors import BadInput, EnvironmentTrouble
 
 OFFLINE_SCENARIO = "sway"
 STRIP_SIZE = (400, 540)
+USUAL_SIZE = "1280x720"  # of the window
+FILM_SIZE = (960, 540)  # of the film that is drawn where there is no display
 
 
 def register(subparsers) -> None:
@@ -22,42 +24,50 @@ def register(subparsers) -> None:
         epilog="example: brace demo volleyball --ghosts",
     )
     add_scenario(parser, default="volleyball")
-    add_filming(parser, size="960x540")
+    add_filming(parser, size=USUAL_SIZE)
     parser.add_argument("-o", "--output", metavar="FOLDER", default="out", help="where pictures go (out)")
     parser.add_argument(
         "--quality", default="auto", metavar="LEVEL",
         help="of the window: best, good, fair, fast, fastest, or auto: by measured frame times (auto)",
     )  # fmt: skip
+    parser.add_argument(
+        "--scale", type=float, default=0.0, metavar="N",
+        help="of the window's panels and letters, 0.5 to 4; without it, as the screen asks",
+    )  # fmt: skip
     parser.set_defaults(run=run)
 
 
 def run(args: argparse.Namespace) -> None:
+    if args.scale and not 0.5 <= args.scale <= 4.0:
+        raise BadInput("usage", f"--scale {args.scale:g}: expected 0.5 to 4")
     if os.environ.get("DISPLAY") or os.environ.get("WAYLAND_DISPLAY"):
         _window(args)
     else:
         _pictures(args)
 
 
-def _simulation(args: argparse.Namespace):
-    """The scenario asked for; the one that needs no fetching, where nothing was asked for and clips are missing."""
-    from demos.running import open_scenario, start
+def _scenario(args: argparse.Namespace):
+    """The scenario asked for and its folder; the one that needs no fetching, where nothing was asked for and clips are
+    missing.
+    """
+    from demos.running import open_scenario
+    from engine.clips.library import list_clips
 
-    try:
-        scenario, folder = open_scenario(args.scenario, args.set)
-        return start(scenario, folder), folder
-    except EnvironmentTrouble as trouble:
-        if trouble.code != "clip-not-fetched" or args.scenario != "volleyball":
-            raise
+    scenario, folder = open_scenario(args.scenario, args.set)
+    missing = {listed.name for listed in list_clips() if not listed.ready}
+    if args.scenario == "volleyball" and scenario.character[0].clip in missing:
         print(f"the real clips are not here (brace clips fetch); showing {OFFLINE_SCENARIO!r} instead", flush=True)
         args.scenario = OFFLINE_SCENARIO
         scenario, folder = open_scenario(args.scenario, args.set)
-        return start(scenario, folder), folder
+    return scenario, folder
 
 
 def _window(args: argparse.Namespace) -> None:
     from demos.filming import placed_for
+    from demos.kernels import forget_stale
     from demos.play import play_of
-    from demos.running import journal_of
+    from demos.window.layer import PanelLayer
+    from demos.window.memory import load_memory, memory_path, save_memory
     from engine.render.camera import orbit_camera
     from engine.render.context import make_context
     from engine.render.controls import CameraHands
@@ -66,16 +76,29 @@ def _window(args: argparse.Namespace) -> None:
     from engine.render.renderer import Renderer
     from engine.render.scene import FloorStyle
 
-    simulation, folder = _simulation(args)
-    shot = placed_for(shot_of(args), simulation.scenario)
+    forget_stale()
+    scenario, folder = _scenario(args)
+    shot, quality = placed_for(shot_of(args), scenario), _quality(args.quality)
+    play = play_of(scenario, folder, Path.cwd())
+    kept, trouble = load_memory(memory_path())
+    play.remember(kept)
+    if trouble:
+        play.session.say(trouble, alarm=True)
+    for name in shot.ghosts:
+        setattr(play.session.view, f"ghost_{name}", True)
+    play.floor = FloorStyle(shot.floor)
     with make_context(headless=False, size=shot.size_px, title=f"Brace: {args.scenario}") as context:
-        renderer = Renderer(context, _quality(args.quality))
-        show = play_of(simulation, journal_of(simulation, folder), renderer.read_rgb, Path.cwd())
-        show.ghosts = tuple(shot.ghosts)
-        show.floor = FloorStyle(shot.floor)
-        hands = CameraHands(orbit_camera(show.centre_m(), *shot.camera))
+        renderer, layer = Renderer(context, quality), PanelLayer(play, args.scale)
+        hands = CameraHands(orbit_camera(play.session.centre_m(), *shot.camera))
         governor = Governor() if args.quality == "auto" else None
-        run_loop(context, renderer, show, hands=hands, follow=show.centre_m, governor=governor)
+        try:
+            run_loop(context, renderer, play, layer=layer, hands=hands, follow=play.centre_m, governor=governor)
+        finally:
+            play.keeper.close()
+            layer.close()
+    lost = save_memory(memory_path(), play.memory())
+    if lost:
+        print(lost, flush=True)
 
 
 def _quality(name: str):
@@ -92,11 +115,15 @@ def _quality(name: str):
 def _pictures(args: argparse.Namespace) -> None:
     from demos.commands.capture import write_film, write_strip
     from demos.filming import placed_for, studio
+    from demos.running import start
     from engine.render.capture import capture_kind
 
     shot = shot_of(args)
-    simulation, _ = _simulation(args)
-    shot = placed_for(shot, simulation.scenario)
+    if args.size == USUAL_SIZE:
+        shot = shot._replace(size_px=FILM_SIZE)
+    scenario, folder = _scenario(args)
+    simulation = start(scenario, folder)
+    shot = placed_for(shot, scenario)
     stem = _picture_folder(args.output) / Path(args.scenario).stem
     strip, film = stem.with_suffix(".png"), stem.with_suffix(".mp4" if _has_ffmpeg() else ".gif")
     capture_kind(strip)
@@ -104,7 +131,7 @@ def _pictures(args: argparse.Namespace) -> None:
     print(f"no display here; drawing {strip} and {film}", flush=True)
     with studio() as renderer:
         write_strip(renderer, strip, simulation, shot._replace(size_px=STRIP_SIZE))
-        simulation, _ = _simulation(args)  # once more from the start
+        simulation = start(scenario, folder)  # once more from the start
         write_film(renderer, film, simulation.world, simulation.step, simulation.ticks, shot)
     print(f"pictures: {strip} (a filmstrip) and {film} (a film)")
 

@@ -23,7 +23,15 @@ if TYPE_CHECKING:
     from engine.render.ui.widgets import Ui
 
 # module and class of each panel, in the order of their tabs; imported when the window first shows panels
-PANELS = (("demos.window.view_panel", "ViewPanel"),)
+PANELS = (
+    ("demos.window.threat_panel", "ThreatPanel"),
+    ("demos.window.rules_panel", "RulesPanel"),
+    ("demos.window.timing_panel", "TimingPanel"),
+    ("demos.window.character_panel", "CharacterPanel"),
+    ("demos.window.clips_panel", "ClipsPanel"),
+    ("demos.window.view_panel", "ViewPanel"),
+    ("demos.window.save_panel", "SavePanel"),
+)
 
 
 class Panel(Protocol):

@@ -5,6 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterable
 from dataclasses import dataclass, field, replace
 
+import numpy as np
+
 from engine.render import camera as cam
 from engine.render.camera import Camera
 from engine.render.events import (
@@ -30,15 +32,20 @@ class CameraHands:
     camera: Camera = field(default_factory=Camera)
     drag: str = ""  # "", orbit or pan
     centred: bool = False  # X was pressed: the loop should frame everything
+    aside_m: np.ndarray = field(default_factory=lambda: np.zeros(3))  # how far a pan has put what is followed aside
 
     def take(self, events: Iterable[Event], size_px) -> list[Event]:
         """Applies what is meant for the camera; returns what is not."""
         return [event for event in events if not self._took(event, size_px)]
 
     def follow(self, point_m, passed_s: float) -> None:
-        """Glides along with a moving point, unless the user is just turning the view."""
-        if not self.drag:
-            self.camera = cam.follow(self.camera, point_m, passed_s)
+        """Glides along with a moving point, unless the user is just turning the view; None: stays.
+
+        What the user panned away from the point stays away as far.
+        """
+        if point_m is None or self.drag:
+            return
+        self.camera = cam.follow(self.camera, np.add(point_m, self.aside_m), passed_s)
 
     def frame(self, points_m, size_px) -> None:
         """Brings all points (N, 3) into the picture; waits while there is none (minimised)."""
@@ -46,6 +53,7 @@ class CameraHands:
             return
         self.camera = cam.frame_all(self.camera, points_m, size_px)
         self.centred = False
+        self.aside_m = np.zeros(3)
 
     def _took(self, event: Event, size_px) -> bool:
         if isinstance(event, MouseButton):
@@ -76,7 +84,8 @@ class CameraHands:
 
     def _move(self, event: MouseMove, size_px) -> None:
         if self.drag == "pan":
-            self.camera = cam.pan(self.camera, event.dx_px, event.dy_px, size_px)
+            before, self.camera = self.camera, cam.pan(self.camera, event.dx_px, event.dy_px, size_px)
+            self.aside_m = self.aside_m + np.subtract(self.camera.target, before.target)
             return
         per_px = ORBIT_RAD_PER_HEIGHT / max(size_px[1], 1)
         self.camera = cam.orbit(self.camera, -event.dx_px * per_px, event.dy_px * per_px)

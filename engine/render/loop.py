@@ -35,11 +35,22 @@ class Show(Protocol):
         """What to draw now. `scene.floor`, balances and so on are the show's choice."""
 
 
+class Layer(Protocol):
+    """What lies on the picture: panels and words."""
+
+    def take(self, events: list[Event], context: Context) -> list[Event]:
+        """Its share of what the user did, before anybody else; returns the rest."""
+
+    def paint(self, renderer: Renderer, context: Context, passed_s: float) -> None:
+        """The picture is drawn and not shown yet. Called only where there is one."""
+
+
 def run_loop(
     context: Context,
     renderer: Renderer,
     show: Show,
     *,
+    layer: Layer | None = None,
     hands: CameraHands | None = None,
     follow: Callable[[], object] | None = None,
     frames: int | None = None,
@@ -48,13 +59,17 @@ def run_loop(
 ) -> CameraHands:
     """Runs until the window closes, or for a number of frames. Returns the hands, with the camera where it was left.
 
+    layer: paints over the finished picture, and is the first to be shown events.
     governor: picks the quality from what frames take; None leaves the renderer's as it is.
-    follow: gives a point (3,) that the camera keeps up with. hands None: the first picture frames everything in it.
+    follow: gives a point (3,) that the camera keeps up with, or None to stay. hands None: the first picture frames
+    everything in it.
     """
     hands = hands or CameraHands(centred=True)
     last_s, drawn = clock(), 0
     while not context.closing and (frames is None or drawn < frames):
         happened, size_px = context.poll(), context.size_px
+        if layer:
+            happened = layer.take(happened, context)
         events = hands.take(happened, size_px)
         now_s = clock()
         passed_s, last_s = now_s - last_s, now_s
@@ -70,6 +85,8 @@ def run_loop(
         if governor:
             renderer.finish()
             renderer.quality = governor.took(clock() - begun_s, size_px)
+        if layer and min(size_px) > 0:
+            layer.paint(renderer, context, passed_s)
         renderer.present()
         drawn += 1
     return hands

@@ -81,6 +81,13 @@ class Renderer:
         if self.targets is not None:
             self.context.present(self.targets.picture)
 
+    @property
+    def finished(self) -> moderngl.Framebuffer:
+        """The last picture, to paint on before it is shown. ValueError before the first."""
+        if self.targets is None:
+            raise ValueError("nothing has been drawn yet")
+        return self.targets.picture
+
     def finish(self) -> None:
         """Waits until all that was asked for has been drawn."""
         self.gl.finish()

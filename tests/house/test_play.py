@@ -2,78 +2,86 @@
 
 import numpy as np
 import pytest
+from PIL import Image
 
 from behaviours.components import Flight, Reaction, Threat
 from demos.filming import CAMERAS
-from demos.play import Play, play_of, throw_speed_mps, under_cursor, velocity_to
-from demos.running import journal_of, open_scenario, start
+from demos.play import Play, play_of
+from demos.running import open_scenario
+from demos.window.throwing import throw_speed_mps, under_cursor, velocity_to
+from engine.body.skeleton import Pose
+from engine.clips.synthetic import sway
+from engine.clips.write_bvh import bvh_text
 from engine.core.journal_file import load_journal
 from engine.maths.ballistics import GRAVITY_MPS2, fly
 from engine.render.camera import orbit_camera, project
-from engine.render.events import CTRL, LEFT_BUTTON, Key, MouseButton, MouseMove
+from engine.render.events import CTRL, LEFT_BUTTON, Drop, Key, MouseButton, MouseMove
 
 SIZE_PX = (640, 480)
 FRAME_S = 1.0 / 60.0
+PICTURE = np.zeros((8, 8, 3), np.uint8)
 
 
 @pytest.fixture
 def play(tmp_path) -> Play:
-    scenario, folder = open_scenario("sway", ("threat=[]",))
-    simulation = start(scenario, folder)
-    picture = np.zeros((8, 8, 3), np.uint8)
-    return play_of(simulation, journal_of(simulation, folder), lambda: picture, tmp_path)
+    play = play_of(*open_scenario("sway", ("threat=[]",)), tmp_path, lambda: 0.0)
+    play.session.slow_motion.enabled = False
+    return play
 
 
 def camera_of(play):
-    return orbit_camera(play.centre_m(), *CAMERAS["front"])
+    return orbit_camera(play.session.centre_m(), *CAMERAS["front"])
 
 
 def do(play, *events, frames=1):
     play.handle(list(events), camera_of(play), SIZE_PX)
     for _ in range(frames):
         play.advance(FRAME_S)
+        play.keep(lambda: PICTURE, FRAME_S)
 
 
-def tap(name):
-    return (Key(name, "press"), Key(name, "release"))
+def tap(name, modifiers=0):
+    return (Key(name, "press", modifiers), Key(name, "release", modifiers))
 
 
 def test_real_time_passes_in_ticks(play):
     do(play, frames=60)
-    assert play.world.tick == 120
+    assert play.session.tick == 120
 
 
 def test_space_holds_and_goes_on(play):
     do(play, *tap("space"), frames=10)
-    assert play.world.tick == 0
+    assert play.session.tick == 0
     do(play, *tap("space"), frames=10)
-    assert play.world.tick == 20
+    assert play.session.tick == 20
 
 
 def test_steps_forth_and_back_are_exact(play):
     do(play, frames=30)
-    before = play.world.digest()
-    tick = play.world.tick
+    before = play.session.world.digest()
+    tick = play.session.tick
     do(play, *tap("."))
-    assert play.world.tick == tick + 1
+    assert play.session.tick == tick + 1
     do(play, *tap("left"))
-    assert (play.world.tick, play.world.digest()) == (tick, before)
+    assert (play.session.tick, play.session.world.digest()) == (tick, before)
 
 
 def test_speed_changes_by_steps_and_stops_at_its_ends(play):
     for _ in range(9):
         do(play, *tap("-"), frames=0)
-    assert play.clock.rate == 0.05
+    assert play.session.clock.rate == 0.05
     for _ in range(9):
         do(play, *tap("="), frames=0)
-    assert play.clock.rate == 2.0
+    assert play.session.clock.rate == 2.0
 
 
-def test_backspace_begins_again(play):
-    start_digest = play.world.digest()
+def test_backspace_begins_again_and_end_returns(play):
+    start_digest = play.session.world.digest()
     do(play, frames=30)
     do(play, *tap("backspace"), frames=0)
-    assert (play.world.tick, play.world.digest()) == (0, start_digest)
+    assert (play.session.tick, play.session.world.digest()) == (0, start_digest)
+    do(play, *tap("end"), frames=0)
+    assert play.session.tick == 60
 
 
 @pytest.mark.parametrize("how", ["f", "click"])
@@ -88,41 +96,86 @@ def test_a_throw_goes_to_what_is_under_the_cursor_and_is_seen_coming(play, how):
     else:
         do(play, MouseButton(LEFT_BUTTON, True, *cursor, CTRL), frames=12)
         do(play, MouseButton(LEFT_BUTTON, False, *cursor, CTRL))
-    (ball,) = play.world.rows(Flight, Threat)
-    assert np.linalg.norm(play.world[Flight].velocity_mps[ball]) == pytest.approx(throw_speed_mps(0.2), rel=0.1)
+    world = play.session.world
+    (ball,) = world.rows(Flight, Threat)
+    assert np.linalg.norm(world[Flight].velocity_mps[ball]) == pytest.approx(throw_speed_mps(0.2), rel=0.1)
     do(play, frames=90)
-    kinds = [event.kind for event in play.world.events]
+    kinds = [event.kind for event in play.session.world.events]
     assert "perceived" in kinds
     assert "contact" in kinds
-    assert play.world[Reaction].struck[0]
+    assert play.session.world[Reaction].struck[0]
 
 
 def test_a_throw_can_be_taken_back(play):
     do(play, frames=30)
-    do(play, MouseMove(320, 200, 0, 0), Key("f", "press"), Key("f", "release"), frames=30)
+    do(play, MouseMove(320, 200, 0, 0), *tap("f"), frames=30)
     do(play, *tap("backspace"), frames=0)
-    assert len(play.world.rows(Flight)) == 0
+    assert len(play.session.world.rows(Flight)) == 0
 
 
-def test_a_recording_of_play_holds_the_throws(play, tmp_path):
-    do(play, MouseMove(320, 200, 0, 0), Key("f", "press"), Key("f", "release"), frames=10)
-    do(play, *tap("r"), *tap("r"))
+def test_a_throw_after_going_back_begins_another_future(play):
+    do(play, frames=60)
+    do(play, *tap("t"), frames=30)
+    assert play.session.run.last_tick == 180
+    play.session.seek(60)
+    do(play, MouseMove(320, 200, 0, 0), *tap("f"), frames=1)
+    assert [command["do"] for commands in play.session.run.inputs.values() for command in commands] == ["throw"]
+    assert play.session.run.last_tick == 62
+
+
+def test_files_are_kept_as_asked(play, tmp_path):
+    do(play, MouseMove(320, 200, 0, 0), *tap("f"), frames=10)
+    do(play, *tap("r", CTRL), *tap("r", CTRL), *tap("p"), *tap("s", CTRL))
     journal = load_journal(tmp_path / "recording-1.brace")
     assert [command["do"] for commands in journal.inputs.values() for command in commands] == ["throw"]
-    assert (tmp_path / "recording-2.brace").exists()
+    assert {path.name for path in tmp_path.iterdir()} == {
+        "recording-1.brace", "recording-2.brace", "screenshot-1.png", "scenario-1.toml",
+    }  # fmt: skip
+    said = "\n".join(line.text for line in play.session.toasts.lines)
+    assert str(tmp_path / "screenshot-1.png") in said
+    with Image.open(tmp_path / "screenshot-1.png") as picture:
+        assert picture.size == (8, 8)
 
 
-def test_what_is_on_the_screen(play, tmp_path):
-    do(play, *tap("f1"), *tap("g"), *tap("p"))
-    words = "\n".join(text for _, text in play.scene().captions)
-    assert "orbit" not in words
-    assert "screenshot-1.png" in words
-    assert (tmp_path / "screenshot-1.png").exists()
-    do(play, *tap("f1"), Key("f", "press"), frames=240)
-    words = "\n".join(text for _, text in play.scene().captions)
-    assert "orbit" in words
-    assert f"throw {throw_speed_mps(9.0):.0f} m/s" in words
-    assert "screenshot" not in words.replace("P screenshot", "")
+def test_where_nothing_can_be_written_one_line_says_so(play, tmp_path):
+    play.session.save_in = tmp_path / "nowhere"
+    do(play, *tap("p"), *tap("r", CTRL), *tap("s", CTRL), frames=2)
+    lines = play.session.toasts.lines
+    assert len(lines) == 3
+    assert all(line.alarm and "nowhere" in line.text and "\n" not in line.text for line in lines)
+
+
+def test_a_dropped_file_that_cannot_be_played_changes_nothing(play, tmp_path):
+    do(play, frames=30)
+    before = play.session.world.digest()
+    bad = tmp_path / "bad.bvh"
+    bad.write_text("HIERARCHY\nROOT", encoding="utf-8")
+    do(play, Drop((str(bad),)), frames=0)
+    assert play.session.world.digest() == before
+    assert play.session.character.clip == "sway"
+    (line,) = play.session.toasts.lines
+    assert line.alarm
+    assert "bad.bvh" in line.text
+
+
+def test_a_dropped_file_is_played(play, tmp_path):
+    clip = sway()
+    some = Pose(clip.pose.root_m[:90], clip.pose.rotations[:90])
+    file = tmp_path / "mine.bvh"
+    file.write_text(bvh_text(clip.body, some, clip.fps), encoding="utf-8")
+    do(play, Drop((str(file),)), frames=0)
+    do(play, frames=30)
+    assert play.session.character.clip == str(file)
+    assert play.session.dropped == [str(file)]
+    assert play.session.tick == 60
+
+
+def test_a_double_click_selects(play):
+    play.session.selected = 0
+    camera = camera_of(play)
+    (cursor,), _ = project(camera, play.scene().figures[0].positions[2], SIZE_PX)
+    do(play, MouseButton(LEFT_BUTTON, True, *cursor, 0, 2), frames=0)
+    assert play.session.selected == 0
 
 
 def test_what_is_under_the_cursor(play):
@@ -130,11 +183,11 @@ def test_what_is_under_the_cursor(play):
     chest_m = play.scene().figures[0].positions[2]
     eye = np.array(camera.eye)
     ray = (chest_m - eye) / np.linalg.norm(chest_m - eye)
-    row, met = under_cursor(play.world, eye, ray)
+    row, met = under_cursor(play.session.world, eye, ray)
     assert row == 0
     assert np.linalg.norm(met - chest_m) < 0.25
     assert np.linalg.norm(met - eye) < np.linalg.norm(chest_m - eye)  # the near side
-    row, beside = under_cursor(play.world, eye, -np.cross(ray, (0.0, 0.0, 1.0)))
+    row, beside = under_cursor(play.session.world, eye, -np.cross(ray, (0.0, 0.0, 1.0)))
     assert row == 0
     assert np.all(np.isfinite(beside))
 

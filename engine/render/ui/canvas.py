@@ -1,13 +1,14 @@
-"""A rectangle among the widgets in which one draws lines, boxes and words, and which knows what the mouse does in it."""
+"""A rectangle among the widgets to draw lines, boxes and words in, which knows what the mouse does there."""
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 
 from imgui_bundle import imgui
 
 from engine.render.ui import style
-from engine.render.ui.style import Colour
+
+Colour = Sequence[float]  # r, g, b, a
 
 
 class Canvas:
@@ -34,7 +35,7 @@ class Canvas:
 
     def line(self, points: Iterable[tuple[float, float]], colour: Colour, width: float = 1.0) -> None:
         """Through all the points; fewer than two draw nothing."""
-        path = [imgui.ImVec2(*self._at(x, y)) for x, y in points]
+        path: list = [imgui.ImVec2(*self._at(x, y)) for x, y in points]
         if len(path) > 1:
             self._list.add_polyline(path, _packed(colour), width, 0)
 
@@ -60,4 +61,5 @@ class Canvas:
 
 
 def _packed(colour: Colour) -> int:
-    return imgui.get_color_u32(imgui.ImVec4(*colour))
+    r, g, b, a = colour
+    return imgui.get_color_u32(imgui.ImVec4(r, g, b, a))

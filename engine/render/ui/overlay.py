@@ -38,8 +38,8 @@ class Overlay:
         """One frame of widgets, made by `draw`, over the picture in `target`."""
         io = imgui.get_io()
         width, height = target.size
-        io.display_size = (width / scale, height / scale)
-        io.display_framebuffer_scale = (scale, scale)
+        io.display_size = imgui.ImVec2(width / scale, height / scale)
+        io.display_framebuffer_scale = imgui.ImVec2(scale, scale)
         io.delta_time = min(max(passed_s, 1e-4), 0.5)
         self.ui.width, self.ui.height = width / scale, height / scale
         self.ui.areas.clear()

@@ -51,7 +51,7 @@ class Painter:
                 target.scissor = (left, height - bottom, right - left, bottom - top)
                 self.textures[command.tex_ref.get_tex_id()].use(UNIT)
                 self.array.render(moderngl.TRIANGLES, vertices=command.elem_count, first=command.idx_offset)
-        target.scissor = None
+        target.scissor = (0, 0, width, height)
 
     def _upload(self, commands) -> None:
         """The corners and the order of one list; the buffers grow by doubling."""

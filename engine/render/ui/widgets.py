@@ -37,7 +37,7 @@ class Ui:
         """A small title over a group of widgets."""
         imgui.spacing()
         imgui.push_font(None, style.SMALL_PX)
-        imgui.text_colored(style.FAINT, text.upper())
+        imgui.text_colored(style.FAINT, text)
         imgui.pop_font()
 
     def text(self, text: str, *, faint: bool = False, alarm: bool = False) -> None:
@@ -46,6 +46,27 @@ class Ui:
         imgui.push_style_color(imgui.Col_.text, colour)
         imgui.text_wrapped(text)
         imgui.pop_style_color()
+
+    def pair(self, left: str, right: str, left_width: float) -> None:
+        """A word and what it stands for, in two columns."""
+        start = imgui.get_cursor_pos_x()
+        imgui.text_colored(style.ACCENT, left)
+        imgui.same_line(start + left_width)
+        imgui.text_wrapped(right)
+
+    def chip(self, text: str, mark: Sequence[float] | None = None, *, faint: bool = False) -> None:
+        """A word on a piece of paper of its own, with a spot of colour before it if one is given."""
+        draw, at = imgui.get_window_draw_list(), imgui.get_cursor_screen_pos()
+        size, spot = imgui.calc_text_size(text), 14.0 if mark else 0.0
+        width, height = size.x + 16.0 + spot, size.y + 8.0
+        corner = (at.x + width, at.y + height)
+        draw.add_rect_filled((at.x, at.y), corner, imgui.get_color_u32(imgui.ImVec4(*style.PAPER)), 6.0)
+        if mark:
+            colour = imgui.get_color_u32(imgui.ImVec4(mark[0], mark[1], mark[2], 1.0))
+            draw.add_circle_filled((at.x + 13.0, at.y + 0.5 * height), 4.5, colour)
+        ink = imgui.get_color_u32(imgui.ImVec4(*(style.FAINT if faint else style.INK)))
+        draw.add_text((at.x + 8.0 + spot, at.y + 4.0), ink, text)
+        imgui.dummy((width, height))
 
     def gap(self) -> None:
         """A little room, with a line through it."""
@@ -60,14 +81,27 @@ class Ui:
     # --- values --------------------------------------------------------------------------------------------------
 
     def slider(
-        self, label: str, value: float, low: float, high: float, unit: str = "", *, digits: int = 2, help: str = ""
+        self,
+        label: str,
+        value: float,
+        low: float,
+        high: float,
+        unit: str = "",
+        *,
+        digits: int = 2,
+        loose: bool = False,
+        help: str = "",
     ) -> float:
-        """A number from a range; Ctrl-click types one. What the user sets is rounded to one digit more than shown."""
+        """A number from a range; Ctrl-click types one, with `loose` also beyond its ends. What the user sets is rounded
+        to one digit more than is shown.
+        """
         self._label(label, help)
         shown = f"%.{digits}f {unit}".rstrip().replace("%", "%%").replace("%%", "%", 1)
         changed, wanted = imgui.slider_float(f"##{label}", value, low, high, shown)
         self._hint(help)
-        return round(min(max(wanted, low), high), digits + 1) if changed else value
+        if not changed:
+            return value
+        return round(wanted if loose else min(max(wanted, low), high), digits + 1)
 
     def whole(self, label: str, value: int, low: int, high: int, unit: str = "", *, help: str = "") -> int:
         """A whole number from a range."""
@@ -153,7 +187,7 @@ class Ui:
 
     @contextmanager
     def area(
-        self, name: str, x: float, y: float, width: float, height: float = 0.0, *, paper: bool = True, mouse: bool = True
+        self, name: str, x: float, y: float, width: float, height: float = 0.0, *, paper=True, mouse=True
     ) -> Iterator[None]:
         """A rectangle of the window to draw in. height 0: as high as its content. mouse: whether it catches clicks."""
         flags = _AREA_FLAGS

@@ -1,0 +1,67 @@
+"""Every key of the window, once: the help shows this table, and `demos.play` obeys it."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, NamedTuple
+
+if TYPE_CHECKING:
+    from engine.render.ui.widgets import Ui
+
+
+class KeyRow(NamedTuple):
+    """`keys`: names as engine.render.events has them, `ctrl-` before where held with it; none: done with the mouse."""
+
+    shown: str
+    does: str
+    action: str = ""
+    keys: tuple[str, ...] = ()
+
+
+GROUPS: dict[str, tuple[KeyRow, ...]] = {
+    "Time": (
+        KeyRow("Space", "pauses, goes on", "pause", ("space",)),
+        KeyRow(". or Right", "one tick ahead, and stands still", "step", (".", "right")),
+        KeyRow(", or Left", "one tick back", "step_back", (",", "left")),
+        KeyRow("-  =", "slower, faster", "slower", ("-",)),
+        KeyRow("", "", "faster", ("=",)),
+        KeyRow("S", "slow motion at the blow, on and off", "slow_motion", ("s",)),
+        KeyRow("Backspace", "back to the start", "restart", ("backspace",)),
+        KeyRow("End", "to the live edge", "live", ("end",)),
+        KeyRow("timeline", "a click jumps, a drag scrubs, the wheel zooms"),
+    ),
+    "Throwing": (
+        KeyRow("F, Ctrl-click", "throws at what is under the cursor; hold for speed"),
+        KeyRow("T", "sends the threat of the Threat panel", "send", ("t",)),
+        KeyRow("A", "auto-fire, on and off", "auto_fire", ("a",)),
+    ),
+    "Looking": (
+        KeyRow("drag", "orbits; right drag or Shift drag pans, wheel zooms"),
+        KeyRow("X", "everybody into the picture"),
+        KeyRow("double click", "selects a character"),
+        KeyRow("V", "the camera follows, or stays", "follow", ("v",)),
+        KeyRow("G", "ghosts of clip, rules and sustained pose", "ghosts", ("g",)),
+        KeyRow("L", "labels, on and off", "labels", ("l",)),
+        KeyRow("Tab", "panels, on and off", "panels", ("tab",)),
+    ),
+    "Keeping": (
+        KeyRow("P", "screenshot", "screenshot", ("p",)),
+        KeyRow("R", "films until R again", "film", ("r",)),
+        KeyRow("Ctrl-S", "saves the run as a scenario", "scenario", ("ctrl-s",)),
+        KeyRow("Ctrl-R", "saves the run as a recording", "recording", ("ctrl-r",)),
+        KeyRow("drop a file", "plays a .bvh or .amc"),
+        KeyRow("F1", "this", "help", ("f1",)),
+        KeyRow("Escape", "closes this", "close", ("escape",)),
+    ),
+}
+ACTIONS = {key: row.action for rows in GROUPS.values() for row in rows for key in row.keys}
+WIDTH, KEY_WIDTH = 420.0, 110.0
+
+
+def draw_help(ui: Ui) -> None:
+    """In the middle of the window."""
+    with ui.area("help", max((ui.width - WIDTH) / 2.0, 8.0), max(ui.height * 0.5 - 270.0, 8.0), WIDTH):
+        for title, rows in GROUPS.items():
+            ui.heading(title)
+            for row in rows:
+                if row.shown:
+                    ui.pair(row.shown, row.does, KEY_WIDTH)
