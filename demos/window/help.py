@@ -54,14 +54,18 @@ GROUPS: dict[str, tuple[KeyRow, ...]] = {
     ),
 }
 ACTIONS = {key: row.action for rows in GROUPS.values() for row in rows for key in row.keys}
-WIDTH, KEY_WIDTH = 420.0, 110.0
+COLUMNS = (("Time", "Throwing"), ("Looking", "Keeping"))
+WIDTH, HEIGHT, KEY_WIDTH, GAP = 370.0, 352.0, 96.0, 8.0
 
 
 def draw_help(ui: Ui) -> None:
-    """In the middle of the window."""
-    with ui.area("help", max((ui.width - WIDTH) / 2.0, 8.0), max(ui.height * 0.5 - 270.0, 8.0), WIDTH):
-        for title, rows in GROUPS.items():
-            ui.heading(title)
-            for row in rows:
-                if row.shown:
-                    ui.pair(row.shown, row.does, KEY_WIDTH)
+    """Two sheets in the middle of the window."""
+    left = max((ui.width - len(COLUMNS) * (WIDTH + GAP) + GAP) / 2.0, 4.0)
+    for number, titles in enumerate(COLUMNS):
+        x, y = left + number * (WIDTH + GAP), max(ui.height * 0.45 - 0.5 * HEIGHT, 4.0)
+        with ui.area(f"help {number}", x, y, WIDTH, HEIGHT):
+            for title in titles:
+                ui.heading(title)
+                for row in GROUPS[title]:
+                    if row.shown:
+                        ui.pair(row.shown, row.does, KEY_WIDTH)

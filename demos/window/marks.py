@@ -10,7 +10,7 @@ import numpy as np
 from behaviours.components import Character, Flight, Threat
 from behaviours.playing import body_of
 from demos.stage import standing
-from engine.body.skeleton import ANKLES, NECK, SHOULDERS, WRISTS
+from engine.body.skeleton import ANKLES, NECK, SHOULDERS
 from engine.core.clock import TICK_S
 from engine.core.debug_draw import DebugDraw
 from engine.maths.ballistics import GRAVITY_MPS2, fly
@@ -109,7 +109,7 @@ def _arrow(draw: DebugDraw, place: np.ndarray, force_N: np.ndarray, m_per_N: flo
 
 
 def _draw_labels(scene: Scene, session: Session) -> None:
-    """Speeds of balls, how long until contact, what the character is about, where its palms are."""
+    """Speeds of balls, how long until contact, what a character is about."""
     world = session.world
     f, t = world[Flight], world[Threat]
     assert scene.draw is not None
@@ -122,5 +122,3 @@ def _draw_labels(scene: Scene, session: Session) -> None:
     for row in world.rows(Character):
         head = session.joints_m(int(row))[4] + (0.0, 0.0, 0.36)
         scene.draw.label(head, session.doing(int(row)), WORDS, "labels")
-        for side, name in enumerate(("left", "right")):
-            scene.draw.label(session.joints_m(int(row))[WRISTS[side]], name, (*WORDS[:3], 0.6), "labels")

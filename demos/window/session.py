@@ -36,6 +36,7 @@ from engine.render.camera import Camera, ray_through
 
 RATES = (0.05, 0.1, 0.25, 0.5, 1.0, 2.0)
 TICKS_BUDGET_S = 0.025  # a frame spends at most this on ticks: what does not fit slows the show down, not the window
+REHEARSED_TICKS = 200
 RERUN_BUDGET_S = 0.020  # and this on running a changed scenario
 
 
@@ -66,6 +67,8 @@ class Session:
         self.asked: list[str] = []  # what only the window can do: screenshot, film, scenario, recording
         self._dice = random.Random(scenario.seed)
         self._next_fire = 0
+        self._rehearsal: Run | None = None
+        self._rehearse = REHEARSED_TICKS
         self._wanted: tuple[Scenario, Inputs] | None = None
         self._rerun: Run | None = None
 
@@ -160,6 +163,7 @@ class Session:
             self._fire()
             self.run.advance()
         self._run_again()
+        self._rehearse_some()
 
     def pause(self) -> None:
         self.clock.paused = not self.clock.paused
@@ -308,6 +312,22 @@ class Session:
         assert self._rerun is not None
         tick, self.run, self._rerun = self.tick, self._rerun, None
         self.run.seek(tick)
+
+    def _rehearse_some(self) -> None:
+        """A few ticks of a reaction that nobody sees, in the first frames: what it needs of compiled code is loaded
+        then, and not in the middle of the first real one.
+        """
+        if self._rehearse <= 0:
+            return
+        if self._rehearsal is None:
+            inputs = {0: [{"do": "threaten", "threat": self.threat.spec(self.selected)}]}
+            self._rehearsal = Run(self.run.scenario, self.find, self.folder, inputs)
+        begun_s = self._stopwatch()
+        while self._rehearse > 0 and self._stopwatch() - begun_s < RERUN_BUDGET_S:
+            self._rehearsal.advance()
+            self._rehearse -= 1
+        if self._rehearse <= 0:
+            self._rehearsal = None
 
     def _finish(self) -> None:
         """Whatever was changed is shown before anything else comes in."""

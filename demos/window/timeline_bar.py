@@ -41,7 +41,8 @@ class TimelineBar:
         for moment_s in view.seconds_marks():
             x = view.x_of(moment_s * TICK_RATE_HZ, canvas.width)
             canvas.line([(x, PHASE_Y + PHASE_HEIGHT), (x, PHASE_Y + PHASE_HEIGHT + 4)], FAINT)
-            canvas.text(x + 3, PHASE_Y + PHASE_HEIGHT + 3, f"{moment_s:g} s", FAINT)
+            if x < canvas.width - 30.0:
+                canvas.text(x + 3, PHASE_Y + PHASE_HEIGHT + 3, f"{moment_s:g} s", FAINT)
         _draw_now(canvas, view.x_of(session.tick, canvas.width))
         if canvas.hovered and not canvas.held:
             _tell(canvas, view, session)

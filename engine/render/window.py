@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+import ctypes
+import threading
 import time
+from typing import Any
 
 import glfw
 import moderngl
@@ -33,6 +36,7 @@ class Window:
     def __init__(self, size: tuple[int, int], title: str):
         self._handle = _open(size, title)
         self._waiting: list[ev.Event] = []
+        self._lost = watch_display()
         self._last_press: tuple[float, int, float, float] = (-1.0, -1, 0.0, 0.0)
         try:
             glfw.make_context_current(self._handle)
@@ -61,11 +65,16 @@ class Window:
         return bool(glfw.window_should_close(self._handle))
 
     def poll(self) -> list[ev.Event]:
-        """Everything since the last call, oldest first. A minimised window waits a little instead of spinning."""
+        """Everything since the last call, oldest first. A minimised window waits a little instead of spinning.
+
+        EnvironmentTrouble where the display has gone.
+        """
         if self.size_px == (0, 0):
             glfw.wait_events_timeout(0.1)
         else:
             glfw.poll_events()
+        if self._lost.is_set():
+            raise EnvironmentTrouble("DISPLAY_LOST", "the display has gone away, and the window with it")
         events, self._waiting = self._waiting, []
         return events
 
@@ -81,7 +90,9 @@ class Window:
         glfw.set_window_title(self._handle, title)
 
     def close(self) -> None:
-        """Closes the window and lets glfw go."""
+        """Closes the window and lets glfw go; without a display there is nothing left to close."""
+        if self._lost.is_set():
+            return
         self.gl.release()
         glfw.destroy_window(self._handle)
         glfw.terminate()
@@ -137,6 +148,27 @@ class Window:
         """Window units to framebuffer pixels: they differ on some systems with high-DPI screens."""
         window, pixels = glfw.get_window_size(self._handle), glfw.get_framebuffer_size(self._handle)
         return (x * pixels[0] / max(window[0], 1), y * pixels[1] / max(window[1], 1))
+
+
+def watch_display() -> threading.Event:
+    """Set when the X server goes away, which otherwise ends the process on the spot. Never set without X11, or with an
+    Xlib of before 2021.
+    """
+    lost = threading.Event()
+    try:
+        xlib: Any = ctypes.CDLL("libX11.so.6")
+        display = ctypes.cast(glfw.get_x11_display(), ctypes.c_void_p)
+        noted = ctypes.CFUNCTYPE(None, ctypes.c_void_p, ctypes.c_void_p)(lambda *_: lost.set())
+        silent = ctypes.CFUNCTYPE(ctypes.c_int, ctypes.c_void_p)(lambda _: 0)
+        xlib.XSetIOErrorExitHandler(display, noted, None)
+        xlib.XSetIOErrorHandler(silent)
+    except (OSError, AttributeError, TypeError):
+        return lost
+    _kept_for_xlib.extend((noted, silent))
+    return lost
+
+
+_kept_for_xlib: list[Any] = []  # callbacks that C may call for as long as the process lives
 
 
 def _open(size: tuple[int, int], title: str):
