@@ -196,6 +196,20 @@ def jump_of(seam: Seam) -> tuple[Worst, Worst]:
     return place, speed
 
 
+def fastest_in_physics(track: Track) -> Worst:
+    """The greatest speed of any joint from one tick to the next under the physics alone, m/s: what a blow can do to a
+    body is little beside the speed of the ball.
+    """
+    if len(track.phase) < 2:
+        return Worst(0.0, 0, "")
+    joints_m = joints_of(track.body, track.pose)[0]
+    mps = np.linalg.norm(np.diff(joints_m, axis=0), axis=2) / TICK_S
+    physics = np.isin(track.phase, PHYSICS)
+    mps *= (physics[1:] & physics[:-1])[:, None]
+    at, joint = np.unravel_index(int(mps.argmax()), mps.shape)
+    return Worst(float(mps[at, joint]), track.tick[at + 1], JOINTS[joint])
+
+
 def snap(track: Track) -> Worst:
     """The greatest change of any joint's velocity from one tick to the next, m/s, outside the physics: what a pop is,
     also where no seam is. Where the clip plays, only what is shown beyond it counts.

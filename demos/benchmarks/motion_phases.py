@@ -16,7 +16,7 @@ from demos.benchmarks.motion_table import SNAP_MPS, Figure, figures_of
 LIMIT_RAD, DEPTH_M, SEAM_MPS = np.radians(0.5), 0.005, 0.05  # bars of the table
 FALL_FIGURES = (
     "jump of place at a seam, mm", "jump of velocity at a seam, m/s", "change of velocity within a tick, m/s",
-    "planted feet slide, mm", "beyond joint limits, degrees", "arms inside head, trunk or each other, mm",
+    "fastest joint under the physics, m/s", "planted feet slide, mm", "beyond joint limits, degrees", "arms inside head, trunk or each other, mm",
 )  # fmt: skip
 
 
@@ -75,7 +75,11 @@ def _lying(fell: list[Row]) -> str:
     if not fell:
         return ""
     still, low = max(row["lies_mps"] or 0.0 for row in fell), min(row["lowest_m"] for row in fell)
-    return f"; before that no joint moves faster than {still:.2f} m/s, none is lower than {1e3 * low:.0f} mm"
+    high = max(row["rises_m"] for row in fell)
+    return (
+        f"; lying, no joint moves faster than {still:.2f} m/s at the end, none was ever lower than {1e3 * low:.0f} mm; "
+        f"no COM was thrown higher than {1e3 * high:.0f} mm above where it stood"
+    )
 
 
 def fall_figures(falls: list[Row]) -> list[Figure]:

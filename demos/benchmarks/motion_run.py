@@ -14,7 +14,7 @@ from behaviours.observing import HandWay, Observer, Track
 from behaviours.scenario import CharacterSpec, Scenario
 from behaviours.simulation import Simulation
 from demos.benchmarks.motion_cases import Case, scenario_of
-from engine.body.kinematics import joints_of
+from engine.body.kinematics import com_of, joints_of
 from engine.body.skeleton import MIRRORED
 from engine.clips.clip import Clip
 from engine.clips.library import find_clip
@@ -94,6 +94,7 @@ def more_of(simulation: Timed) -> Row:
         "seam_by_phase": seams_by_phase(track),
         "snap": measures.snap(track),
         "snap_phase": Phase(track.phase[track.tick.index(measures.snap(track).tick)]).name.lower(),
+        "fastest": measures.fastest_in_physics(track),
         "foot_ticks": int(flagged.sum()),
         "settling_foot_ticks": int(settling.sum()),
         "settling_drift_m": measures.drift_max_m(track, settling),
@@ -124,7 +125,9 @@ def fall_of(simulation: Timed) -> Row:
     phases = np.array(track.phase)
     down = np.flatnonzero(np.equal(phases, Phase.DOWN))
     rises = [event for event in simulation.events("searched") if event["chosen"] == "get_up"]
+    com_m = com_of(track.body, track.pose)[:, 2]
     row: Row = {"fell": len(down) > 0, "got_up": bool(rises), "stands_again": False, "lies_mps": None, "lowest_m": None}
+    row["rises_m"] = float(com_m.max() - com_m[0])
     if len(down) == 0:
         return row
     joints_m = joints_of(track.body, track.pose)[0]

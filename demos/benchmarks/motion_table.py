@@ -54,6 +54,7 @@ def figures_of(rows: list[Row], poses: PoseBars | None = None) -> list[Figure]:
             "the same ticks; hands and forearms as capsules; beyond the most that the clip's own poses have",
         ),
         *_of_blows(rows),
+        *_of_physics(rows),
         _greatest(
             rows, "mirrored run differs, m", 1e-6, _times("asymmetry_m", 1.0),
             f"every {EVERY_MIRRORED}th case is run once more in the mirror, up to contact; left out: within "
@@ -149,6 +150,15 @@ def _of_blows(rows: list[Row]) -> list[Figure]:
             f"threats to the head from anywhere; left out: {left_out} of {len(heads)}, nobody struck in one run",
         ),
         _median(rows, "median cut of the head's peak acceleration, %", 40.0, _cut, "the same threats"),
+    ]  # fmt: skip
+
+
+def _of_physics(rows: list[Row]) -> list[Figure]:
+    return [
+        _greatest(
+            rows, "fastest joint under the physics, m/s", None, lambda row: row["fastest"].value,
+            "all joints from the blow to recovery, and while down; nothing that is hit goes much faster than the ball",
+        )
     ]  # fmt: skip
 
 

@@ -198,6 +198,14 @@ def test_a_pop_is_a_change_of_velocity_within_a_tick():
     assert measures.snap(track_of(poses, [Phase.RESPOND] * 5)).value == 0.0
 
 
+def test_the_fastest_joint_under_the_physics_is_that_of_its_ticks_alone():
+    poses = [moved(), moved(0.5), moved(0.6), moved(0.65), moved(2.0)]
+    track = track_of(poses, [Phase.PROTECT, Phase.RESPOND, Phase.RESPOND, Phase.DOWN, Phase.PLAY])
+    found = measures.fastest_in_physics(track)
+    assert found.value == pytest.approx(0.1 * 120)
+    assert found.tick == 2
+
+
 def test_what_the_clip_does_is_no_pop_of_ours():
     poses = [moved(), moved(), moved(), moved(0.05), moved(0.05)]
     track = track_of(poses, [Phase.PROTECT] + [Phase.PLAY] * 4)

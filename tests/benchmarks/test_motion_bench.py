@@ -35,7 +35,7 @@ def row(number: int = 0, **changed):
         "case": CASE._replace(number=number), "contact_error_s": 0.0, "first_contact": "left_hand", "head_peak_g": 5.0,
         "bare_head_peak_g": 50.0, "foot_slide_max_m": 0.0, "hand_line_deviation_max_m": 0.0,
         "com_line_deviation_max_m": 0.0, "seam_position_jump_max_m": 0.0, "seam_velocity_jump_max_mps": 0.0,
-        "joint_limit_excess_max_rad": 0.0, "overlap_max_m": 0.0, "protect_ms": [0.2, 0.3], "snap": NOTHING,
+        "joint_limit_excess_max_rad": 0.0, "overlap_max_m": 0.0, "protect_ms": [0.2, 0.3], "snap": NOTHING, "fastest": NOTHING,
         "snap_phase": "protect", "foot_ticks": 100, "settling_foot_ticks": 10, "settling_drift_m": 0.0,
         "line_ticks": 50, "hand_frames": {"straight": 60, "bowed": 20, "led": 15, "beyond_reach": 5},
         "led_astray_m": 0.0, "neck_line_m": 0.0, "two_sequences_ticks": 31, "reacting_ticks": 120, "seams": 5,
@@ -169,10 +169,10 @@ def test_the_search_and_the_falls_are_told():
     new = CASE._replace(recover="new")
     entered = {"kind": "searched", "chosen": "new", "clip": "dance"}
     falls = [
-        row(0, fell=True, got_up=True, stands_again=True, lies_mps=0.01, lowest_m=0.02),
-        row(1, fell=True, got_up=False, stands_again=False, lies_mps=0.02, lowest_m=0.01,
+        row(0, fell=True, got_up=True, stands_again=True, lies_mps=0.01, lowest_m=0.02, rises_m=0.1),
+        row(1, fell=True, got_up=False, stands_again=False, lies_mps=0.02, lowest_m=0.01, rises_m=0.2,
             searched=[{"kind": "stays_down", "reason": "no motion that gets up"}]),
-        row(2, fell=False, got_up=False, stands_again=False, lies_mps=None, lowest_m=None),
+        row(2, fell=False, got_up=False, stands_again=False, lies_mps=None, lowest_m=None, rises_m=0.0),
     ]  # fmt: skip
     text = "\n".join(search_lines([row(case=new, searched=[entered]), row(case=new)], False, falls))
     assert "2 struck who ask" in text
