@@ -48,6 +48,7 @@ class Past:
     spans: list[Span] = field(default_factory=list)
     margin_m: list[float] = field(default_factory=list)  # of the COM inside the support polygon; nan in the air
     head_g: list[float] = field(default_factory=list)  # the head's acceleration, its greatest within the tick
+    head_mps: list[np.ndarray] = field(default_factory=list)  # at the end of a tick of physics; empty elsewhere
     parts_m: list[np.ndarray] = field(default_factory=list)  # (P, 3) float32, centres of the body's parts
 
 
@@ -81,7 +82,7 @@ class History:
         """Everything after the world's tick: it will be otherwise."""
         count = world.tick - self.first_tick + 1
         for past in self.pasts.values():
-            for kept in (past.margin_m, past.head_g, past.parts_m):
+            for kept in (past.margin_m, past.head_g, past.head_mps, past.parts_m):
                 del kept[count:]
             past.spans = [
                 span._replace(last=min(span.last, world.tick)) for span in past.spans if span.first <= world.tick
@@ -126,9 +127,13 @@ def _note(world, row: int, past: Past) -> None:
 
 def _head_g(world, row: int, past: Past, head: int) -> float:
     """From the physics' own steps where it is under way, else from three ticks. Without gravity, in g."""
+    before = past.head_mps[-1:] if past.head_mps and len(past.head_mps[-1]) else []
+    past.head_mps.append(np.empty(0))
     if world[Ragdoll].active[row]:
-        return float(np.linalg.norm(np.diff(world[Ragdoll].head_mps[row], axis=0), axis=1).max()) * PHYSICS_HZ / 9.80665
+        steps = np.array([*before, *world[Ragdoll].head_mps[row]])
+        past.head_mps[-1] = steps[-1]
+        return float(np.linalg.norm(np.diff(steps, axis=0), axis=1).max()) * PHYSICS_HZ / GRAVITY_MPS2
     if len(past.parts_m) < 3:
         return 0.0
-    before, middle, now = (past.parts_m[k][head].astype(float) for k in (-3, -2, -1))
-    return float(np.linalg.norm(now - 2.0 * middle + before)) * TICK_RATE_HZ**2 / GRAVITY_MPS2
+    first, middle, last = (past.parts_m[k][head].astype(float) for k in (-3, -2, -1))
+    return float(np.linalg.norm(last - 2.0 * middle + first)) * TICK_RATE_HZ**2 / GRAVITY_MPS2
