@@ -16,7 +16,8 @@ from demos.benchmarks.motion_table import SNAP_MPS, Figure, figures_of
 LIMIT_RAD, DEPTH_M, SEAM_MPS = np.radians(0.5), 0.005, 0.05  # bars of the table
 FALL_FIGURES = (
     "jump of place at a seam, mm", "jump of velocity at a seam, m/s", "change of velocity within a tick, m/s",
-    "fastest joint under the physics, m/s", "planted feet slide, mm", "beyond joint limits, degrees", "arms inside head, trunk or each other, mm",
+    "fastest joint under the physics, m/s", "planted feet slide, mm",
+    "beyond joint limits, degrees", "arms inside head, trunk or each other, mm",
 )  # fmt: skip
 
 
