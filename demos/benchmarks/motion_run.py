@@ -8,20 +8,25 @@ from typing import Any
 import numpy as np
 
 from behaviours import measures
-from behaviours.components import Phase
+from behaviours.components import Flight, Phase, Reaction, Sustained
 from behaviours.head_measures import head_acceleration_g
 from behaviours.observing import HandWay, Observer, Track
 from behaviours.scenario import CharacterSpec, Scenario
 from behaviours.simulation import Simulation
+from behaviours.timing import TICK_S
 from demos.benchmarks.motion_cases import Case, scenario_of
 from engine.body.kinematics import com_of, joints_of
-from engine.body.skeleton import MIRRORED
+from engine.body.skeleton import MIRRORED, Pose
 from engine.clips.clip import Clip
 from engine.clips.library import find_clip
+from engine.maths.ballistics import GRAVITY_MPS2, fly
+from engine.physics import impact
 
 EVERY_MIRRORED = 4
 DEAD_AHEAD_DEG = 2.0  # left out of the comparison with the mirror image: there a side is chosen
 PROTECTING = (Phase.STARTLE, Phase.PROTECT)
+RECOVERING = (Phase.RECOVER_BLEND, Phase.RECOVER_RETURN)
+LONGEST_FLIGHT_TICKS = 240
 OFF_LINE = (HandWay.BOWED, HandWay.LED)
 
 Row = dict[str, Any]
@@ -37,6 +42,7 @@ class Timed(Simulation):
         super().__init__(scenario, find)
         self.observer: Observer = Observer(self.world, self.world.assets.character_rows)
         self.tick_s: list[float] = []
+        self.promised_s: float | None = None  # when the sustained pose, once it is known, is to be touched
 
     @property
     def track(self) -> Track:
@@ -49,11 +55,29 @@ class Timed(Simulation):
         self.observer.look(self.world)
         if self.track.phase[-1] in PROTECTING:
             self.tick_s.append(passed_s)
+            if self.promised_s is None:
+                self.promised_s = promised_contact_s(self.world)
 
     def events(self, *kinds: str) -> list[dict[str, Any]]:
         return [
             {"tick": event.tick, "kind": event.kind, **event.data} for event in self.world.events if event.kind in kinds
         ]
+
+
+def promised_contact_s(world) -> float | None:
+    """When the ball that is guarded against would first touch the sustained pose, standing still in its way."""
+    threat, capsules = int(world[Reaction].threat[0]), world.assets.capsules[0]
+    if not world.alive(threat):
+        return None
+    f, s, ball = world[Flight], world[Sustained], world.row(threat)
+    pose = joints_of(world.assets.bodies[0], Pose(s.root_m[0], s.rotations[0]))
+    at, mps = tuple(f.position_m[ball]), tuple(f.velocity_mps[ball])
+    for tick in range(world.tick, world.tick + LONGEST_FLIGHT_TICKS):
+        before, (at, mps) = at, fly(at, mps, GRAVITY_MPS2, float(f.drag_per_m[ball]), TICK_S)
+        hit = impact.first_hit(capsules, pose, pose, before, at, float(f.radius_m[ball]))
+        if hit is not None:
+            return (tick - 1 + hit.share) * TICK_S
+    return None
 
 
 def play(scenario: Scenario, clips: dict[str, Clip]) -> Timed:
@@ -74,6 +98,8 @@ def run_case(case: Case, clips: dict[str, Clip]) -> Row:
     touched = simulation.events("contact", "touch")
     row["first_contact"] = touched[0]["part"] if touched else None
     row["contact_error_s"] = touched[0]["late_s"] if touched else None
+    met = touched and simulation.promised_s is not None
+    row["promise_error_s"] = touched[0]["at_s"] - simulation.promised_s if met else None
     if case.target == "head":
         row["bare_head_peak_g"] = bare_head_peak_g(case, clips)
     if case.number % EVERY_MIRRORED == 0 and abs(case.azimuth_deg) > DEAD_AHEAD_DEG:
@@ -87,6 +113,7 @@ def more_of(simulation: Timed) -> Row:
     phases = np.array(track.phase)
     flagged = np.array(track.planted) & measures.ours(track)[:, None]
     settling = measures.settling_feet(track)
+    after_blow = np.isin(phases, RECOVERING)[:, None]
     return {
         "limit_by_phase": measures.joint_limit_excess(track),
         "overlap_by_phase": measures.overlap(track),
@@ -97,7 +124,8 @@ def more_of(simulation: Timed) -> Row:
         "fastest": measures.fastest_in_physics(track),
         "foot_ticks": int(flagged.sum()),
         "settling_foot_ticks": int(settling.sum()),
-        "settling_drift_m": measures.drift_max_m(track, settling),
+        "settling_before_m": measures.drift_max_m(track, settling & ~after_blow),
+        "settling_after_m": measures.drift_max_m(track, settling & after_blow),
         "hand_frames": measures.hand_frames(track.lines),
         "led_astray_m": measures.hand_line_deviation_max_m(track.lines, OFF_LINE),
         "neck_line_m": measures.neck_line_deviation_max_m(track.lines),

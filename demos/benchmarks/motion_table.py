@@ -71,6 +71,9 @@ def _of_contact(rows: list[Row]) -> list[Figure]:
         rows, "contact off its plan, ticks", 1.0, _contact_ticks,
         f"first touch of each ball, the flight that the struck surface saves counted in; left out: {len(missed)} balls "
         f"that touch nobody{_numbers(missed)}",
+    ), _greatest(
+        rows, "contact off the sustained pose's, ticks", None, _promise_ticks,
+        "the first touch against that of the same ball on the sustained pose, were it there from the start",
     )]  # fmt: skip
 
 
@@ -80,11 +83,15 @@ def _of_feet(rows: list[Row]) -> list[Figure]:
         _greatest(
             rows, "planted feet slide, mm", 2.0, _times("foot_slide_max_m", 1e3),
             f"{_ticks(rows, 'foot_ticks')} of a foot flagged planted in protection and recovery; left out: {settling} "
-            "of one that stands by the plan while what a seam or blow left over still moves it (next figure)",
+            "of one that stands by the plan while what a seam or blow left over still moves it (next two figures)",
         ),
         _greatest(
-            rows, "feet that stand but still settle, mm", None, _times("settling_drift_m", 1e3),
-            f"those {settling}; most of them after a blow, which may move a foot",
+            rows, "feet that come to stand from the clip, mm", None, _times("settling_before_m", 1e3),
+            f"of those {settling} the ones in protection: a foot that stands in the clip still moves a little",
+        ),
+        _greatest(
+            rows, "feet that come to stand from a blow, mm", None, _times("settling_after_m", 1e3),
+            "the ones in recovery: the blow may have moved a foot",
         ),
     ]  # fmt: skip
 
@@ -194,6 +201,10 @@ def _times(key: str, scale: float) -> Of:
 
 def _contact_ticks(row: Row) -> float | None:
     return None if row["contact_error_s"] is None else abs(row["contact_error_s"]) / TICK_S
+
+
+def _promise_ticks(row: Row) -> float | None:
+    return None if row["promise_error_s"] is None else abs(row["promise_error_s"]) / TICK_S
 
 
 def _met_by_arm(row: Row) -> float | None:
