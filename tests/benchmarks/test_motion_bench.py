@@ -101,7 +101,7 @@ def test_a_bar_is_met_at_the_bar_and_not_above_it():
                           ("arms inside", "overlap_max_m", 0.005), ("COM off", "com_line_deviation_max_m", 0.005),
                           ("hands off", "hand_line_deviation_max_m", 0.003),
                           ("jump of velocity", "seam_velocity_jump_max_mps", 0.05),
-                          ("contact off", "contact_error_s", 1 / 120)):  # fmt: skip
+                          ("contact off its plan", "contact_error_s", 1 / 120)):  # fmt: skip
         assert figure([row(**{key: at * (1 - 1e-9)})], name).met, name
         assert not figure([row(**{key: at * 1.01})], name).met, name
 
@@ -121,7 +121,7 @@ def test_shares_and_medians():
 
 def test_a_ball_that_touches_nobody_is_left_out_but_not_where_it_must_be_met():
     rows = [row(0), row(7, contact_error_s=None, first_contact=None, head_peak_g=None)]
-    contact = figure(rows, "contact off")
+    contact = figure(rows, "contact off its plan")
     assert contact.cases == 1
     assert "1 balls" in contact.counted
     assert "7" in contact.counted
