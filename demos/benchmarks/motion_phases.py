@@ -14,7 +14,7 @@ from demos.benchmarks.motion_run import Row
 from demos.benchmarks.motion_table import SNAP_MPS, Figure, figures_of
 
 LIMIT_RAD, DEPTH_M, SEAM_MPS = np.radians(0.5), 0.005, 0.05  # bars of the table
-FALL_FIGURES = (
+SOME_FIGURES = (
     "jump of place at a seam, mm", "jump of velocity at a seam, m/s", "change of velocity within a tick, m/s",
     "fastest joint under the physics, m/s", "planted feet slide, mm",
     "beyond joint limits, degrees", "arms inside head, trunk or each other, mm",
@@ -55,13 +55,15 @@ def _cell(worst: list[Worst], bar: float, scale: float, form: str) -> str:
 
 def search_lines(rows: list[Row], get_ups_here: bool, falls: list[Row]) -> list[str]:
     """What the search for a new motion found, and how those fared who were knocked down."""
-    asked = [row for row in rows if row["case"].recover == "new" and row["contact_error_s"] is not None]
+    asked = searching(rows)
     searches = [event for row in asked for event in row["searched"] if event["kind"] == "searched"]
     taken = Counter(event["clip"] for event in searches if event["chosen"] == "new")
     named = ", ".join(f"{clip} {times}" for clip, times in taken.most_common()) or "none"
+    away_m = [event["distance_m"] for event in searches if event["chosen"] == "new"]
+    near = f"; windows {np.median(away_m):.3f} m off in the median, {max(away_m):.3f} at most" if away_m else ""
     fell, rose = [row for row in falls if row["fell"]], [row for row in falls if row["got_up"]]
     lines = [
-        f"search: {len(asked)} struck who ask for a new motion, {sum(taken.values())} times one is entered: {named}",
+        f"search: {len(asked)} struck who ask for a new motion, {sum(taken.values())} times one is entered: {named}{near}",
         f"knock-downs: {len(falls)} thrown at, {len(fell)} fall, {len(rose)} get up by a motion that is found, "
         f"{sum(row['stands_again'] for row in falls)} stand at the end" + _lying(fell),
     ]
@@ -70,6 +72,11 @@ def search_lines(rows: list[Row], get_ups_here: bool, falls: list[Row]) -> list[
     reasons = Counter(e["reason"] for row in falls for e in row["searched"] if e["kind"] == "stays_down")
     lines.extend(f"knock-downs: {times} stay down: {reason}" for reason, times in reasons.most_common())
     return lines
+
+
+def searching(rows: list[Row]) -> list[Row]:
+    """Those who are struck and then look for a new motion."""
+    return [row for row in rows if row["case"].recover == "new" and row["contact_error_s"] is not None]
 
 
 def _lying(fell: list[Row]) -> str:
@@ -83,6 +90,6 @@ def _lying(fell: list[Row]) -> str:
     )
 
 
-def fall_figures(falls: list[Row]) -> list[Figure]:
-    """The figures that make sense of a fall, over the falls."""
-    return [figure for figure in figures_of(falls) if figure.name in FALL_FIGURES] if falls else []
+def some_figures(rows: list[Row]) -> list[Figure]:
+    """The figures that can be told of some runs alone: of falls, of those who go on with a new motion."""
+    return [figure for figure in figures_of(rows) if figure.name in SOME_FIGURES] if rows else []

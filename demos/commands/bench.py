@@ -82,24 +82,26 @@ def bench_motion(args: argparse.Namespace) -> None:
 
 def _motion_lines(found, figures) -> list[str]:
     from demos.benchmarks.motion_cases import get_ups_here, where_from
-    from demos.benchmarks.motion_phases import fall_figures, phase_lines, search_lines
+    from demos.benchmarks.motion_phases import phase_lines, search_lines, searching, some_figures
     from demos.benchmarks.motion_table import lines_of
 
     table, *counted = "\n".join(lines_of(figures)).split("\n\n")
-    falls, search = fall_figures(found.falls), search_lines(found.rows, get_ups_here(), found.falls)
+    falls, new = some_figures(found.falls), some_figures(searching(found.rows))
+    search = search_lines(found.rows, get_ups_here(), found.falls)
     many = f"{len(found.rows)} threats at {len(found.clips)} clips, {len(found.falls)} knock-downs"
     return [
         f"{many}; {where_from(found.clips)}",
         *("", table),
         *("", *phase_lines(found.rows)),
         *("", *search),
+        *("", "of those who go on with a new motion", *lines_of(new)[: len(new) + 1]),
         *("", "of the knock-downs", *lines_of(falls)[: len(falls) + 1]),
         *("", *counted),
     ]
 
 
 def _motion_data(found, figures) -> dict:
-    from demos.benchmarks.motion_phases import fall_figures
+    from demos.benchmarks.motion_phases import searching, some_figures
 
     def plain(figure) -> dict:
         return figure._asdict() | {"worst": figure.worst_words or None}
@@ -109,7 +111,8 @@ def _motion_data(found, figures) -> dict:
         "knock_downs": len(found.falls),
         "clips": list(found.clips),
         "figures": [plain(figure) for figure in figures],
-        "of_knock_downs": [plain(figure) for figure in fall_figures(found.falls)],
+        "of_new_motions": [plain(figure) for figure in some_figures(searching(found.rows))],
+        "of_knock_downs": [plain(figure) for figure in some_figures(found.falls)],
         "poses": found.poses._asdict(),
     }
 
