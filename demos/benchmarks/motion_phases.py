@@ -63,7 +63,7 @@ def search_lines(rows: list[Row], get_ups_here: bool, falls: list[Row]) -> list[
     near = f"; windows {np.median(away_m):.3f} m off in the median, {max(away_m):.3f} at most" if away_m else ""
     fell, rose = [row for row in falls if row["fell"]], [row for row in falls if row["got_up"]]
     lines = [
-        f"search: {len(asked)} struck who ask for a new motion, {sum(taken.values())} times one is entered: {named}{near}",
+        f"search: {len(asked)} struck who ask for a new motion, {len(away_m)} times one is entered: {named}{near}",
         f"knock-downs: {len(falls)} thrown at, {len(fell)} fall, {len(rose)} get up by a motion that is found, "
         f"{sum(row['stands_again'] for row in falls)} stand at the end" + _lying(fell),
     ]

@@ -18,7 +18,7 @@ from demos.benchmarks.motion_cases import (
     scenario_of,
     where_from,
 )
-from demos.benchmarks.motion_phases import some_figures, phase_lines, search_lines
+from demos.benchmarks.motion_phases import phase_lines, search_lines, some_figures
 from demos.benchmarks.motion_run import asymmetry_m, play, run_case
 from demos.benchmarks.motion_table import figures_of, lines_of
 from demos.benchmarks.pose_bars import PoseBars
