@@ -148,7 +148,8 @@ def clear_arms(body, capsules, allowed_m, targets_m, rotations, positions, orien
             break
         bring_arms(body, led, turns, rotations, positions, orientations)
     way = (vector.distance(led[0], targets_m[0]), vector.distance(led[1], targets_m[1]))
-    targets_m[:] = led
+    for side in range(2):
+        vector.put(targets_m, side, vector.at(led, side))
     return way
 
 

@@ -60,7 +60,8 @@ def choose_arcs(body, capsules, start, end, support, goals):
     positions, orientations = np.empty((JOINT_COUNT, 3)), np.empty((JOINT_COUNT, 4))
     for way in range(len(ARC_WAYS)):
         both, worst, elbows_m = np.empty((2, 2)), np.zeros(2), np.empty((2, 3))
-        both[:] = ARC_WAYS[way]
+        for side in range(2):
+            both[side, 0], both[side, 1] = ARC_WAYS[way, 0], ARC_WAYS[way, 1]
         for k in range(ARC_SAMPLES + 1):
             weight = k / ARC_SAMPLES
             blend_trunk_and_legs(

@@ -21,6 +21,8 @@ from typing import NamedTuple
 import numpy as np
 from numba import njit
 
+from engine.maths.copying import copy_into
+
 # how a search ended, by its `counts[STOP]`
 STOPS = ("running", "converged", "iterations", "line_search", "flat")
 RUNNING, CONVERGED, OUT_OF_ITERATIONS, LINE_SEARCH, FLAT = range(len(STOPS))
@@ -89,13 +91,15 @@ def begin_with(search, slopes):
                 left[i, j] += 2.0 * slopes[i, k] * slopes[j, k]
     for i in range(n):
         scale = 1.0 / left[i, i]
-        left[i] *= scale
-        right[i] *= scale
+        for j in range(n):
+            left[i, j] *= scale
+            right[i, j] *= scale
         for row in range(n):
             if row != i:
                 share = left[row, i]
-                left[row] -= share * left[i]
-                right[row] -= share * right[i]
+                for j in range(n):
+                    left[row, j] -= share * left[i, j]
+                    right[row, j] -= share * right[i, j]
     search.counts[FRESH] = 0
 
 
@@ -138,7 +142,7 @@ def tell(search, value, offset, tolerance, iterations, restarts):
 
 @njit(cache=True)
 def _begin_gradient(search, offset):
-    search.trial[:] = search.point
+    copy_into(search.trial, search.point)
     search.trial[0] += offset
     search.counts[AXIS] = 0
     search.counts[PHASE] = AHEAD
@@ -164,20 +168,22 @@ def _begin_line(search):
         return
     if slope >= 0.0:  # rounding has spoilt the curvature: straight downhill instead
         _forget_curvature(search)
-        search.direction[:] = -search.gradient
+        for i in range(n):
+            search.direction[i] = -search.gradient[i]
         slope, longest = -steepness, steepness
     shrink = min(1.0, LONGEST_STEP / math.sqrt(longest))
-    search.direction[:] *= shrink
+    for i in range(n):
+        search.direction[i] *= shrink
+        search.trial[i] = search.point[i] + search.direction[i]
     search.numbers[SLOPE] = slope * shrink
     search.numbers[STEP] = 1.0
     search.counts[PHASE] = ON_LINE
-    search.trial[:] = search.point + search.direction
 
 
 @njit(cache=True)
 def _judge_step(search, value, offset, tolerance, iterations, restarts):
     """Accepts the step if it gains enough, else tries a shorter one."""
-    numbers = search.numbers
+    counts, numbers = search.counts, search.numbers
     if value <= numbers[VALUE] + ENOUGH * numbers[STEP] * numbers[SLOPE]:
         _accept_step(search, value, offset, tolerance, iterations, restarts)
         return
@@ -188,9 +194,11 @@ def _judge_step(search, value, offset, tolerance, iterations, restarts):
     for i in range(len(search.point)):
         farthest = max(farthest, abs(shorter * search.direction[i]))
     if farthest < SHORTEST_STEP:
-        _end_round(search, LINE_SEARCH, offset, tolerance, restarts)
+        counts[STOP] = LINE_SEARCH
+        _end_round(search, offset, tolerance, restarts)
     else:
-        search.trial[:] = search.point + shorter * search.direction
+        for i in range(len(search.point)):
+            search.trial[i] = search.point[i] + shorter * search.direction[i]
 
 
 @njit(cache=True)
@@ -218,33 +226,34 @@ def _shorter_step(numbers, value):
 @njit(cache=True)
 def _accept_step(search, value, offset, tolerance, iterations, restarts):
     counts, numbers = search.counts, search.numbers
-    search.moved[:] = numbers[STEP] * search.direction
-    search.point[:] = search.trial
-    search.last_gradient[:] = search.gradient
+    for i in range(len(search.point)):
+        search.moved[i] = numbers[STEP] * search.direction[i]
+    copy_into(search.point, search.trial)
+    copy_into(search.last_gradient, search.gradient)
     decrease = numbers[VALUE] - value
     numbers[VALUE] = value
     counts[ITERATIONS] += 1
     if counts[ITERATIONS] >= iterations:
         counts[STOP] = OUT_OF_ITERATIONS
     elif decrease <= tolerance * (abs(value) + 1e-30):
-        _end_round(search, CONVERGED, offset, tolerance, restarts)
+        counts[STOP] = CONVERGED
+        _end_round(search, offset, tolerance, restarts)
     else:
         counts[MOVED] = 1
         _begin_gradient(search, offset)
 
 
 @njit(cache=True)
-def _end_round(search, reason, offset, tolerance, restarts):
-    """Ends the search, or begins another round with fresh curvature if the last one gained."""
+def _end_round(search, offset, tolerance, restarts):
+    """Leaves the search stopped, or begins another round with fresh curvature if the last one gained."""
     counts, numbers = search.counts, search.numbers
     gained = numbers[ROUND_VALUE] - numbers[VALUE]
     if counts[RESTARTS] < restarts and gained > tolerance * (abs(numbers[VALUE]) + 1e-30):
+        counts[STOP] = RUNNING
         counts[RESTARTS] += 1
         numbers[ROUND_VALUE] = numbers[VALUE]
         _forget_curvature(search)
         _begin_gradient(search, offset)
-    else:
-        counts[STOP] = reason
 
 
 @njit(cache=True)

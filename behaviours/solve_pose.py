@@ -11,6 +11,7 @@ from behaviours import minimise
 from behaviours.least_squares import bounded_step, normal_equations
 from behaviours.rules.controls import CONTROL_COUNT
 from behaviours.total_error import BEGIN, RESIDUALS, SQUARES, TERMS, VARIABLES, residuals_into, total_error
+from engine.maths.copying import copy_into
 
 REFINE = 0.1  # each restart looks closer: the thesis's offset is as wide as the leg's soft end
 LEAST_SQUARES_OFFSET = 1e-4  # its derivatives are of residuals, not of their squares: a fine difference is safe
@@ -57,10 +58,11 @@ def solve_bfgs(task, reference, form, start, posed, offset, tolerance, iteration
         finer = offset * REFINE ** counts[minimise.RESTARTS]
         if form == SQUARES and counts[minimise.FRESH] == 1:
             if counts[minimise.PHASE] == minimise.AHEAD:
-                ahead[:] = residuals
+                copy_into(ahead, residuals)
             elif counts[minimise.PHASE] == minimise.BEHIND:
                 axis = counts[minimise.AXIS]
-                slopes[axis] = (ahead - residuals) / (2.0 * finer)
+                for i in range(RESIDUALS):
+                    slopes[axis, i] = (ahead[i] - residuals[i]) / (2.0 * finer)
                 _weigh(reference, slopes[axis])
                 if axis == VARIABLES - 1:
                     minimise.begin_with(search, slopes)
@@ -79,7 +81,7 @@ def solve_bfgs(task, reference, form, start, posed, offset, tolerance, iteration
 @njit(cache=True)
 def _jacobian_into(task, reference, point, low, high, trial, controls, posed, ahead, behind, jacobian):
     """Central differences of the weighted residuals; one-sided against a bound. Two evaluations a variable."""
-    trial[:] = point
+    copy_into(trial, point)
     for j in range(VARIABLES):
         up, down = min(point[j] + LEAST_SQUARES_OFFSET, high[j]), max(point[j] - LEAST_SQUARES_OFFSET, low[j])
         trial[j] = up
@@ -115,7 +117,8 @@ def solve_least_squares(task, reference, start, posed, tolerance, iterations):
         normal_equations(jacobian, residuals, matrix, slope)
         while True:
             bounded_step(matrix, slope, point, low, high, damping, step)
-            trial[:] = point + step
+            for i in range(VARIABLES):
+                trial[i] = point[i] + step[i]
             residuals_into(task, reference, trial, controls, posed, trial_residuals)
             evaluations += 1
             _weigh(reference, trial_residuals)
@@ -127,8 +130,8 @@ def solve_least_squares(task, reference, start, posed, tolerance, iterations):
             stop = minimise.LINE_SEARCH
             break
         decrease = value - trial_value
-        point[:] = trial
-        residuals[:] = trial_residuals
+        copy_into(point, trial)
+        copy_into(residuals, trial_residuals)
         value = trial_value
         damping = max(0.1 * damping, LEAST_DAMPING)
         if decrease <= tolerance * value:
