@@ -53,7 +53,8 @@ class Canvas:
         imgui.pop_font()
 
     def hint(self, text: str) -> None:
-        """A word beside the cursor."""
+        """Words above the rectangle, over the cursor."""
+        imgui.set_next_window_pos((self._left + self.mouse[0], self._top - 6.0), imgui.Cond_.always, (0.5, 1.0))
         imgui.set_tooltip(text.replace("%", "%%"))
 
     def _at(self, x: float, y: float) -> tuple[float, float]:

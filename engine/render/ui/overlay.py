@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
+from collections import deque
+from collections.abc import Callable, Iterable, Iterator
 
 import glfw  # noqa: F401  before imgui_bundle, which otherwise finds a library of its own
 from imgui_bundle import imgui
@@ -27,11 +28,12 @@ class Overlay:
         self.painter = Painter(gl)
         self.ui = Ui()
         self.held: set[int] = set()  # buttons that went down on a widget
+        self._waiting: deque[Event] = deque()
 
     def take(self, events: Iterable[Event], scale: float) -> list[Event]:
-        """Tells imgui everything; returns what was not meant for a widget."""
+        """Everything is told to imgui with the next frames; returns what was not meant for a widget."""
         events = list(events)
-        tell(events, scale)
+        self._waiting.extend(events)
         return [event for event in events if not self._took(event, scale)]
 
     def paint(self, target, scale: float, passed_s: float, draw: Callable[[Ui], None]) -> None:
@@ -43,6 +45,7 @@ class Overlay:
         io.delta_time = min(max(passed_s, 1e-4), 0.5)
         self.ui.width, self.ui.height = width / scale, height / scale
         self.ui.areas.clear()
+        tell(self._share(), scale)
         imgui.new_frame()
         draw(self.ui)
         imgui.render()
@@ -50,6 +53,22 @@ class Overlay:
 
     def close(self) -> None:
         imgui.destroy_context(self.context)
+
+    def _share(self) -> Iterator[Event]:
+        """What of the events imgui is told in this frame: a press ends it, and so does a release after a move.
+
+        Where frames are slow, a whole drag may come between two of them, and imgui does not look where the mouse was
+        when it sees the button up.
+        """
+        moved = False
+        while self._waiting:
+            event = self._waiting[0]
+            if isinstance(event, MouseButton) and not event.pressed and moved:
+                return
+            yield self._waiting.popleft()
+            if isinstance(event, MouseButton) and event.pressed:
+                return
+            moved = moved or isinstance(event, MouseMove)
 
     def _took(self, event: Event, scale: float) -> bool:
         """Keys while a line is typed in; the mouse over an area or a popup, and from press to release."""
