@@ -204,7 +204,7 @@ def _contact_ticks(row: Row) -> float | None:
 
 
 def _promise_ticks(row: Row) -> float | None:
-    return None if row["promise_error_s"] is None else abs(row["promise_error_s"]) / TICK_S
+    return None if row.get("promise_error_s") is None else abs(row["promise_error_s"]) / TICK_S
 
 
 def _met_by_arm(row: Row) -> float | None:

@@ -200,6 +200,8 @@ def test_a_small_run_of_it(monkeypatch):
     assert all(one["finite"] for one in found.rows)
     lines = lines_of(figures_of(found.rows, found.poses))
     assert not any(" nan " in line for line in lines if "mirrored" not in line)
+    assert len(some_figures(found.falls)) > 5
+    assert phase_lines(found.falls)
     again = run_case(found.rows[1]["case"], clips)
     timed = ("protect_ms",)
     assert {k: v for k, v in again.items() if k not in timed} == {
