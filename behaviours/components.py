@@ -121,6 +121,8 @@ class Struck(Component):
     played = column(dtype=np.int64)  # row of world.assets.clips: what was played before the blow
     rests = column(dtype=np.int64)  # ticks for which a body that is down has lain still
     said = column(dtype=bool)  # that it stays down
+    impulse_Ns = column(3)  # all that has been dealt since the response began
+    com_mps = column(3)  # how the body as a whole moved when it began
 
 
 class Recover(IntEnum):
@@ -140,7 +142,7 @@ class Blow(Component):
     impulse_Ns = column(3)  # on the body, all of it, world
     turning_Nms = column(3)  # on the ball, about its centre, world
     normal = column(3)  # from the body to the ball
-    elapsed_s = column()  # since contact
+    elapsed_s = column()  # since contact, also after it is over
     lasts_s = column()
 
 

@@ -99,7 +99,6 @@ def fly_balls(world, tick):
     if not len(rows):
         return
     f = world[Flight]
-    rows = rows[~f.held[rows]]
     f.before_m[rows] = f.position_m[rows]
     f.before_turned[rows] = f.turned[rows]
     fly_all(

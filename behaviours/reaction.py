@@ -16,6 +16,7 @@ from behaviours.blending import blend_end, knee_swivels_between, primary_support
 from behaviours.components import (
     NOBODY,
     Blend,
+    Blow,
     Character,
     Feet,
     Flight,
@@ -29,10 +30,12 @@ from behaviours.components import (
     Sustained,
     Threat,
 )
+from behaviours.falling import begin_falling
 from behaviours.held_feet import hold_feet, leg_lengths
+from behaviours.knocked_down import has_fallen, response_is_over
 from behaviours.playing import body_of, capsules_of, clip_pose, perception_clip_s, planted_in_clip
 from behaviours.protection import perceived_threat, protect_from
-from behaviours.recovery import begin_recovery, begin_return, has_fallen, resume_clip
+from behaviours.recovery import begin_recovery, begin_return, resume_clip
 from behaviours.rules.startle import startle_pose
 from behaviours.search import choose_return
 from behaviours.settling import settled_pose
@@ -45,7 +48,7 @@ from engine.core.schedule import Stage, system
 
 BUSY = (Phase.STARTLE, Phase.PROTECT, Phase.RESPOND, Phase.RECOVER_BLEND, Phase.DOWN, Phase.STOPPED)
 STATE = (
-    Blend, Character, Feet, Flight, Playback, Posture, Ragdoll, Reaction, Residual, Struck, Sustained, Threat,
+    Blend, Blow, Character, Feet, Flight, Playback, Posture, Ragdoll, Reaction, Residual, Struck, Sustained, Threat,
 )  # fmt: skip
 STEP_SHARE = 0.9  # of the time to contact: a foot stands before the blow comes
 
@@ -221,7 +224,7 @@ def advance_reactions(world, tick):
             begin_return(world, row, tick)
             enter(world, row, tick, Phase.RECOVER_RETURN)
             keep_continuous(world, row, tick, old)
-        elif phase == Phase.RESPOND and lasted >= whole_ticks(world[Character].response_s[row]):
+        elif phase == Phase.RESPOND and response_is_over(world, row, tick):
             end_response(world, row, tick)
         elif phase == Phase.RECOVER_BLEND and lasted >= whole_ticks(settings.recovery.part_one_s):
             old = moment_before(world, row, tick)
@@ -273,6 +276,7 @@ MISS_TICKS = 6  # after the promised contact, before a threat that touched nothi
 def end_response(world, row: int, tick: int) -> None:
     """Back to control, or down if the feet can no longer get under the body."""
     if has_fallen(world, row):
+        begin_falling(world, row)
         enter(world, row, tick, Phase.DOWN)
         return
     old = moment_before(world, row, tick)

@@ -20,11 +20,10 @@ from behaviours.playing import body_of, clip_pose, planted_in_clip, play_from
 from behaviours.seams import shown
 from behaviours.sources import choose_hand_ways
 from behaviours.timing import TICK_S, whole_ticks
-from engine.body import footing, support
+from engine.body import footing
 from engine.body.kinematics import com_of, joints_of
-from engine.body.skeleton import ANKLES, PELVIS, Pose
+from engine.body.skeleton import ANKLES, Pose
 from engine.maths import quaternion
-from engine.maths.ballistics import GRAVITY_MPS2
 
 
 def return_clip_s(world, row: int) -> float:
@@ -130,20 +129,3 @@ def resume_clip(world, row: int, tick: int) -> None:
     play_from(world, row, tick - 1, return_clip_s(world, row))
     for side in range(2):
         foot_plan.let_go(world[Feet], row, side)
-
-
-def has_fallen(world, row: int) -> bool:
-    """Whether the feet can no longer get under the body: the capture point lies far outside them, or the hips are down.
-
-    Capture point: COM + its velocity * sqrt(height / g) (Pratt et al. 2006), on the ground.
-    """
-    recovery, body = world.assets.settings.recovery, body_of(world, row)
-    now, before = shown(world, row)
-    com, was = com_of(body, now), com_of(body, before)
-    fall_s = math.sqrt(max(com[2], 0.1) / -GRAVITY_MPS2[2])
-    capture = com[:2] + (com[:2] - was[:2]) / TICK_S * fall_s
-    at, turned = joints_of(body, now)
-    hull = support.polygon_of(body, at, turned, np.ones(2, bool))
-    standing_m = footing.leg_length_m(body, 0)
-    low = at[PELVIS, 2] < recovery.fallen_hip_share * standing_m
-    return bool(low or support.margin_m(hull, capture) < -recovery.capture_beyond_m)

@@ -28,7 +28,9 @@ from behaviours.components import (
     Sustained,
     Threat,
 )
+from behaviours.falling import held_pose
 from behaviours.inertialise import nothing_left
+from behaviours.knocked_down import begin_reeling
 from behaviours.playing import body_of, perception_clip_s
 from behaviours.reaction import enter
 from behaviours.seams import MOMENT, shown
@@ -55,15 +57,14 @@ NEAR_M = 1.5  # a ball farther from the pelvis than its own size plus this meets
 def step_bodies(world, tick):
     """Whoever was struck is stepped by the physics, tracked towards the sustained pose; blows under way are dealt."""
     response = world.assets.settings.response
-    doll, s = world[Ragdoll], world[Sustained]
+    doll = world[Ragdoll]
     for row in world.rows(Ragdoll, Character):
         if not doll.active[row]:
             continue
         model = world.assets.models[int(world[Character].body[row])]
-        target = Pose(s.root_m[row].copy(), s.rotations[row].copy())
+        target, share = held_pose(world, row, ragdoll.pose_of(model, doll.state[row]))
         pushes = deal_blow(world, row)
-        down = world[Reaction].phase[row] == Phase.DOWN
-        strength = response.stiffness * (response.down_share if down else 1.0)
+        strength = response.stiffness * share
         trace = np.empty((SUB_STEPS, JOINT_COUNT, 3))
         doll.before[row] = doll.state[row]
         doll.state[row] = ragdoll.step(
@@ -79,13 +80,14 @@ def step_bodies(world, tick):
 def deal_blow(world, row: int) -> tuple[ragdoll.Push, ...]:
     """The body's side of the blow under way, and this tick's share of it to the ball."""
     b = world[Blow]
+    b.elapsed_s[row] += TICK_S
     if b.ball[row] == NOBODY:
         return ()
     push = ragdoll.Push(
         int(b.joint[row]),
         b.place_m[row].copy(),
         b.impulse_Ns[row].copy(),
-        float(b.elapsed_s[row]),
+        float(b.elapsed_s[row] - TICK_S),
         float(b.lasts_s[row]),
     )
     if world.alive(int(b.ball[row])):
@@ -93,23 +95,20 @@ def deal_blow(world, row: int) -> tuple[ragdoll.Push, ...]:
         f, ball = world[Flight], world.row(int(b.ball[row]))
         f.velocity_mps[ball] -= share * push.impulse_Ns / f.mass_kg[ball]
         f.spin_radps[ball] += share * b.turning_Nms[row] / (impact.HOLLOW * f.mass_kg[ball] * f.radius_m[ball] ** 2)
-    b.elapsed_s[row] += TICK_S
     return (push,)
 
 
 def carry_ball(world, row: int, model) -> None:
-    """While it presses, the ball stays on the place it touches; then it is free again."""
+    """While it presses, the ball goes no farther than the place it touches, but may slide along; then it is free."""
     b, f = world[Blow], world[Flight]
     if b.ball[row] == NOBODY:
         return
     if world.alive(int(b.ball[row])):
         ball = world.row(int(b.ball[row]))
-        f.before_m[ball] = f.position_m[ball]
-        f.before_turned[ball] = f.turned[ball]
         positions, orientations = joints_of(body_of(world, row), ragdoll.pose_of(model, world[Ragdoll].state[row]))
         joint = int(b.joint[row])
         touch = vector.add(positions[joint], quaternion.rotate(orientations[joint], b.place_m[row]))
-        f.position_m[ball] = vector.along(touch, b.normal[row], f.radius_m[ball])
+        keep_out(world, ball, touch, b.normal[row])
         f.held[ball] = b.elapsed_s[row] < b.lasts_s[row]
     if b.elapsed_s[row] >= b.lasts_s[row]:
         b.ball[row] = NOBODY
@@ -141,11 +140,11 @@ def meet_balls(world, tick):
         for row in world.rows(Posture, Character):
             reach_m = f.radius_m[ball] + NEAR_M + vector.distance(f.before_m[ball], f.position_m[ball])
             if (
-                f.held[ball]
-                or world[Reaction].phase[row] == Phase.STOPPED
+                world[Reaction].phase[row] == Phase.STOPPED
                 or vector.distance(f.position_m[ball], p.root_m[row]) > reach_m
             ):
                 continue
+            presses = f.held[ball] and world[Blow].ball[row] == world.entity(ball)
             now, before = shown(world, row)
             body = body_of(world, row)
             hit = impact.first_hit(
@@ -155,6 +154,7 @@ def meet_balls(world, tick):
                 f.before_m[ball],
                 f.position_m[ball],
                 float(f.radius_m[ball]),
+                int(world[Blow].joint[row]) if presses else NOBODY,
             )
             if hit is not None:
                 strike(world, int(row), int(ball), hit, tick)
@@ -164,10 +164,12 @@ def strike(world, row: int, ball: int, hit: impact.Hit, tick: int) -> None:
     """A contact: the impulse, what it does to the ball, and, unless it is a mere touch, to the body."""
     response = world.assets.settings.response
     model = world.assets.models[int(world[Character].body[row])]
-    _now, _ = shown(world, row)
+    if world[Blow].ball[row] == world.entity(ball):
+        finish_blow(world, row, ball, model)
     simulated = world[Ragdoll].active[row] and world[Reaction].phase[row] in (Phase.RESPOND, Phase.DOWN)
     state = world[Ragdoll].state[row] if simulated else moving_state(world, row, tick, model)
-    thrown = ball_at(world, ball, place_in_world(world, row, hit), hit.normal)
+    touch_m = place_in_world(world, row, hit)
+    thrown = ball_at(world, ball, touch_m, hit.normal)
     material = impact.Material(response.restitution, response.friction)
     impulse = impact.exchange(model, state, thrown, hit, material)
     if impulse is None:
@@ -190,7 +192,7 @@ def strike(world, row: int, ball: int, hit: impact.Hit, tick: int) -> None:
             late_s=lateness_s(world, row, ball, at_s, hit),
         )
     world[Threat].spent[ball] = True
-    place_ball(world, ball, thrown)
+    keep_out(world, ball, touch_m, hit.normal)
     if not hard:
         turn_ball(world, ball, impact.ball_after(thrown, impulse))
         return
@@ -223,8 +225,11 @@ def ball_at(world, ball: int, touch_m, normal) -> impact.Ball:
     )
 
 
-def place_ball(world, ball: int, at: impact.Ball) -> None:
-    world[Flight].position_m[ball] = at.centre_m
+def keep_out(world, ball: int, touch_m, normal) -> None:
+    """Moves a ball straight out to where it just touches a place, if it has come farther; along the skin it is free."""
+    f = world[Flight]
+    inside_m = f.radius_m[ball] - vector.inner(vector.subtract(f.position_m[ball], touch_m), normal)
+    f.position_m[ball] = vector.along(f.position_m[ball], normal, max(0.0, inside_m))
 
 
 def turn_ball(world, ball: int, after: impact.Ball) -> None:
@@ -236,6 +241,9 @@ def turn_ball(world, ball: int, after: impact.Ball) -> None:
 def deal(world, row: int, ball: int, model, thrown: impact.Ball, impulse: impact.Impulse, hit: impact.Hit) -> None:
     """Starts a blow over the contact time; a second one at the same time, or one without duration, is dealt at once."""
     b, response = world[Blow], world.assets.settings.response
+    world[Struck].impulse_Ns[row] -= impulse.impulse_Ns
+    if b.ball[row] == NOBODY:
+        b.elapsed_s[row] = 0.0
     if b.ball[row] != NOBODY or response.contact_s <= 0.0:
         world[Ragdoll].state[row] = impact.body_after(model, world[Ragdoll].state[row], impulse)
         turn_ball(world, ball, impact.ball_after(thrown, impulse))
@@ -244,8 +252,22 @@ def deal(world, row: int, ball: int, model, thrown: impact.Ball, impulse: impact
     b.joint[row], b.place_m[row] = impulse.joint, impulse.place_m
     b.impulse_Ns[row], b.turning_Nms[row] = -impulse.impulse_Ns, impulse.turning_Nms
     b.normal[row] = hit.normal
-    b.elapsed_s[row], b.lasts_s[row] = 0.0, response.contact_s
+    b.lasts_s[row] = response.contact_s
     world[Flight].held[ball] = True
+
+
+def finish_blow(world, row: int, ball: int, model) -> None:
+    """What is left of the blow under way is dealt at once: the ball meets another part before it has left the first."""
+    b = world[Blow]
+    push = ragdoll.Push(int(b.joint[row]), b.place_m[row], b.impulse_Ns[row], 0.0, float(b.lasts_s[row]))
+    left = ragdoll.share_in(push, float(b.elapsed_s[row]), push.duration_s)
+    rest = impact.Impulse(
+        -left * push.impulse_Ns, left * b.turning_Nms[row], push.joint, push.place_m, 0.0, b.normal[row]
+    )
+    world[Ragdoll].state[row] = impact.body_after(model, world[Ragdoll].state[row], rest)
+    turn_ball(world, ball, impact.ball_after(ball_at(world, ball, (0.0, 0.0, 0.0), b.normal[row]), rest))
+    b.ball[row] = NOBODY
+    world[Flight].held[ball] = False
 
 
 def begin_response(world, row: int, tick: int, state: np.ndarray) -> None:
@@ -261,6 +283,7 @@ def begin_response(world, row: int, tick: int, state: np.ndarray) -> None:
     world[Ragdoll].head_mps[row] = ragdoll.part_motion_of(model, state)[HEAD]
     world[Ragdoll].stepped[row], world[Ragdoll].active[row] = tick, True
     begin_remembering(world, row, joints_of(model.body, now)[0])
+    begin_reeling(world, row, ragdoll.com_velocity_of(model, state))
     for side in range(2):
         foot_plan.let_go(world[Feet], row, side)
     nothing_left(world[Residual], row)

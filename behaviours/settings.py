@@ -232,7 +232,19 @@ class Response(NamedTuple):
     least_mps: Annotated[
         float, Constant("m/s", "A8", "so does a slower one, or a ball that lies on somebody holds them down")
     ] = 1.0
-    down_share: Annotated[float, Constant("1", "A8", "of that strength that is left once knocked down")] = 0.15
+    longest_s: Annotated[float, Constant("s", "A8", "physics alone, at most, however heavy the blow")] = 0.4
+    reel_over_mps: Annotated[
+        float, Constant("m/s", "A8", "a blow that gives the whole body more than this is left to the physics longer")
+    ] = 0.2
+    reel_s_per_mps: Annotated[float, Constant("s per m/s", "A8", "by so much")] = 0.2
+    quiet_s: Annotated[float, Constant("s", "A8", "control comes back no sooner than this after the last contact")] = (
+        0.04
+    )
+    fall_share: Annotated[float, Constant("1", "A8", "how far a falling body goes from its pose to that of a fall")] = (
+        0.8
+    )
+    falling_share: Annotated[float, Constant("1", "A8", "of that strength that is left while falling")] = 0.7
+    down_share: Annotated[float, Constant("1", "A8", "and once it lies")] = 0.15
     stiffness: Annotated[float, Constant("1", "A8", "strength of the tracking servos, 1 is usual")] = 1.0
     damping: Annotated[float, Constant("1", "A8", "their damping, 1 is critical")] = 1.0
 

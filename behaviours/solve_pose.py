@@ -84,10 +84,9 @@ def _jacobian_into(task, reference, point, low, high, trial, controls, posed, ah
     copy_into(trial, point)
     for j in range(VARIABLES):
         up, down = min(point[j] + LEAST_SQUARES_OFFSET, high[j]), max(point[j] - LEAST_SQUARES_OFFSET, low[j])
-        trial[j] = up
-        residuals_into(task, reference, trial, controls, posed, ahead)
-        trial[j] = down
-        residuals_into(task, reference, trial, controls, posed, behind)
+        for forward in (True, False):  # one call, since residuals_into is compiled into every place that calls it
+            trial[j] = up if forward else down
+            residuals_into(task, reference, trial, controls, posed, ahead if forward else behind)
         trial[j] = point[j]
         for i in range(RESIDUALS):
             jacobian[i, j] = (ahead[i] - behind[i]) / (up - down)
@@ -101,42 +100,44 @@ def solve_least_squares(task, reference, start, posed, tolerance, iterations):
     """Levenberg-Marquardt with controls kept in [0, 1], on the `squares` form, from `start` (10,)."""
     low, high = np.full(VARIABLES, -np.inf), np.full(VARIABLES, np.inf)
     low[3:], high[3:] = 0.0, 1.0
-    controls, point = np.empty(CONTROL_COUNT), np.minimum(np.maximum(start, low), high)
+    controls, point, trial = np.empty(CONTROL_COUNT), np.empty(VARIABLES), np.minimum(np.maximum(start, low), high)
     residuals, trial_residuals = np.empty(RESIDUALS), np.empty(RESIDUALS)
-    behind, trial, step = np.empty(RESIDUALS), np.empty(VARIABLES), np.empty(VARIABLES)
+    ahead, behind, step = np.empty(RESIDUALS), np.empty(RESIDUALS), np.empty(VARIABLES)
     jacobian, matrix, slope = np.empty((RESIDUALS, VARIABLES)), np.empty((VARIABLES, VARIABLES)), np.empty(VARIABLES)
     posed.made_from[:] = np.nan
-    residuals_into(task, reference, point, controls, posed, residuals)
-    _weigh(reference, residuals)
-    value = initial = _sum_of_squares(residuals)
-    evaluations, done, damping, stop = 1, 0, 1e-3, minimise.OUT_OF_ITERATIONS
-    while done < iterations:
-        _jacobian_into(task, reference, point, low, high, trial, controls, posed, trial_residuals, behind, jacobian)
-        evaluations += 2 * VARIABLES
-        done += 1
-        normal_equations(jacobian, residuals, matrix, slope)
-        while True:
-            bounded_step(matrix, slope, point, low, high, damping, step)
-            for i in range(VARIABLES):
-                trial[i] = point[i] + step[i]
-            residuals_into(task, reference, trial, controls, posed, trial_residuals)
-            evaluations += 1
-            _weigh(reference, trial_residuals)
-            trial_value = _sum_of_squares(trial_residuals)
-            if trial_value < value or damping >= MOST_DAMPING:
+    value = initial = np.inf
+    evaluations, done, damping, stop = 0, 0, 1e-3, minimise.OUT_OF_ITERATIONS
+    while True:
+        residuals_into(task, reference, trial, controls, posed, trial_residuals)
+        evaluations += 1
+        _weigh(reference, trial_residuals)
+        trial_value = _sum_of_squares(trial_residuals)
+        if evaluations == 1 or trial_value < value:
+            decrease = value - trial_value
+            copy_into(point, trial)
+            copy_into(residuals, trial_residuals)
+            value = trial_value
+            if evaluations == 1:
+                initial = value
+            else:
+                damping = max(0.1 * damping, LEAST_DAMPING)
+                if decrease <= tolerance * value:
+                    stop = minimise.CONVERGED
+                    break
+            if done == iterations:
                 break
-            damping *= 10.0
-        if not trial_value < value:
+            _jacobian_into(task, reference, point, low, high, trial, controls, posed, ahead, behind, jacobian)
+            evaluations += 2 * VARIABLES
+            done += 1
+            normal_equations(jacobian, residuals, matrix, slope)
+        elif damping >= MOST_DAMPING:
             stop = minimise.LINE_SEARCH
             break
-        decrease = value - trial_value
-        copy_into(point, trial)
-        copy_into(residuals, trial_residuals)
-        value = trial_value
-        damping = max(0.1 * damping, LEAST_DAMPING)
-        if decrease <= tolerance * value:
-            stop = minimise.CONVERGED
-            break
+        else:
+            damping *= 10.0
+        bounded_step(matrix, slope, point, low, high, damping, step)
+        for i in range(VARIABLES):
+            trial[i] = point[i] + step[i]
     return Solution(point, value, initial, done, evaluations, 0, stop)
 
 

@@ -17,7 +17,7 @@ from numba import njit
 
 from engine.body.capsules import CAPSULES, Capsules, capsules_at
 from engine.maths import quaternion, shapes, vector
-from engine.physics import ragdoll
+from engine.physics import ragdoll, stops
 from engine.physics.model import RagdollModel
 from engine.physics.ragdoll import Push
 
@@ -69,16 +69,21 @@ class Impulse(NamedTuple):
     joint: int
     place_m: np.ndarray  # (3,) in the joint's frame
     approach_mps: float  # speed of closing along the normal before, positive
+    normal: np.ndarray  # (3,) unit, from the body to the ball's centre, world
 
 
-def first_hit(capsules: Capsules, before, now, centre_before_m, centre_m, radius_m: float) -> Hit | None:
+def first_hit(
+    capsules: Capsules, before, now, centre_before_m, centre_m, radius_m: float, past_joint: int = -1
+) -> Hit | None:
     """The first contact within a tick in which ball and body each move evenly.
 
-    before, now: (positions (J, 3), orientations (J, 4)) of the body at the tick's two ends. None if they do not meet.
+    before, now: (positions (J, 3), orientations (J, 4)) of the body at the tick's two ends; past_joint: the parts that
+    this one carries do not count. None if they do not meet.
     """
     ends0, ends1 = capsules_at(capsules, *before), capsules_at(capsules, *now)
     centre0, centre1 = np.asarray(centre_before_m, float), np.asarray(centre_m, float)
-    c, share = _first(capsules.radius_m, ends0, ends1, centre0, centre1, float(radius_m))
+    counts = capsules.joint != past_joint
+    c, share = _first(capsules.radius_m, counts, ends0, ends1, centre0, centre1, float(radius_m))
     if c < 0:
         return None
     start, end = ends0[c] + share * (ends1[c] - ends0[c])
@@ -100,10 +105,12 @@ def first_hit(capsules: Capsules, before, now, centre_before_m, centre_m, radius
 
 
 @njit(cache=True)
-def _first(radius_m, ends0, ends1, centre0, centre1, ball_radius_m):
+def _first(radius_m, counts, ends0, ends1, centre0, centre1, ball_radius_m):
     """The capsule that is met first, and the share of the tick: (-1, -1) where none is."""
     best, when = -1, 2.0
     for c in range(len(radius_m)):
+        if not counts[c]:
+            continue
         share = shapes.swept_sphere_capsule(
             centre0, centre1, ends0[c, 0], ends0[c, 1], ends1[c, 0], ends1[c, 1], radius_m[c] + ball_radius_m
         )
@@ -115,7 +122,7 @@ def _first(radius_m, ends0, ends1, centre0, centre1, ball_radius_m):
 def exchange(model: RagdollModel, state: np.ndarray, ball: Ball, hit: Hit, material: Material) -> Impulse | None:
     """The impulse of one contact between a ball and a body in a state; None if they are parting already."""
     place = _locate(model, state, hit.joint, hit.place_m)
-    gives, velocity = _mobility(model, place, hit.joint)
+    gives, velocity = _mobility(model, place, hit.joint, hit.normal)
     arm = -ball.radius_m * hit.normal
     gap_velocity = np.asarray(ball.velocity_mps) + np.cross(ball.spin_radps, arm) - velocity
     approach = -float((gap_velocity * hit.normal).sum())
@@ -123,7 +130,7 @@ def exchange(model: RagdollModel, state: np.ndarray, ball: Ball, hit: Hit, mater
         return None
     gives = gives + ball_mobility(ball.mass_kg, ball.radius_m, ball.hollow, hit.normal)
     j = np.array(contact_impulse(gives, gap_velocity, hit.normal, *material))
-    return Impulse(j, np.cross(arm, j), hit.joint, np.asarray(hit.place_m, float), approach)
+    return Impulse(j, np.cross(arm, j), hit.joint, np.asarray(hit.place_m, float), approach, hit.normal)
 
 
 def bounce(ball: Ball, normal, material: Material) -> Ball:
@@ -135,7 +142,7 @@ def bounce(ball: Ball, normal, material: Material) -> Ball:
         return ball
     gives = ball_mobility(ball.mass_kg, ball.radius_m, ball.hollow, n)
     j = np.array(contact_impulse(gives, gap_velocity, n, *material))
-    return ball_after(ball, Impulse(j, np.cross(arm, j), -1, arm, 0.0))
+    return ball_after(ball, Impulse(j, np.cross(arm, j), -1, arm, 0.0, n))
 
 
 def ball_after(ball: Ball, impulse: Impulse, share: float = 1.0) -> Ball:
@@ -150,11 +157,9 @@ def body_after(model: RagdollModel, state: np.ndarray, impulse: Impulse) -> np.n
     """The state when the body has taken all of its side of the impulse at once: velocities change, places do not."""
     place = _locate(model, state, impulse.joint, impulse.place_m)
     jacobian = _jacobian(model, place, impulse.joint)
-    push = -(jacobian * impulse.impulse_Ns[:, None]).sum(axis=0)
-    change = np.empty((1, len(push)))
-    mujoco.mj_solveM(model.mujoco_model, model.data, change, push[None, :])
     out = np.array(state, float)
-    out[model.velocities] += change[0]
+    solved = _answers(model, jacobian, np.asarray(impulse.normal, float))
+    out[model.velocities] -= (solved * impulse.impulse_Ns[:, None]).sum(axis=0)
     return out
 
 
@@ -179,11 +184,24 @@ def _jacobian(model, place, joint):
     return out
 
 
-def _mobility(model, place, joint):
-    """How the place gives way: change of its velocity (3, 3) per impulse there, J M^-1 J^T; and its velocity now."""
-    jacobian = _jacobian(model, place, joint)
+def _answers(model, jacobian, normal):
+    """(3, nv): how all velocities change per impulse along each axis at the place, joints transmitting.
+
+    Whatever touches already, a hand on the head, a joint at its limit, holds against a push from outside, -normal.
+    """
     solved = np.empty_like(jacobian)
     mujoco.mj_solveM(model.mujoco_model, model.data, solved, jacobian)
+    push = -(solved * normal[:, None]).sum(axis=0)
+    rows, answers = stops.braces(model, model.data.qpos, push)
+    if len(rows):
+        stops.braced(rows, answers, solved)
+    return solved
+
+
+def _mobility(model, place, joint, normal):
+    """How the place gives way: change of its velocity (3, 3) per impulse there, J M^-1 J^T; and its velocity now."""
+    jacobian = _jacobian(model, place, joint)
+    solved = _answers(model, jacobian, normal)
     gives = (jacobian[:, None, :] * solved[None, :, :]).sum(axis=2)
     return 0.5 * (gives + gives.T), (jacobian * model.data.qvel).sum(axis=1)
 

@@ -133,6 +133,12 @@ def part_motion_of(model: RagdollModel, state: np.ndarray) -> np.ndarray:
     )
 
 
+def com_velocity_of(model: RagdollModel, state: np.ndarray) -> np.ndarray:
+    """(3,) velocity of the whole body's centre of mass, world."""
+    qpos, qvel = state[model.positions], state[model.velocities]
+    return tracking.momentum(PARENT, model.body, qpos, qvel) / model.mass_kg
+
+
 def share_in(push: Push, from_s: float, to_s: float) -> float:
     """The share of a push that falls between two times since contact: the same numbers for body and ball."""
     if push.duration_s <= 0.0:

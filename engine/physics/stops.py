@@ -15,6 +15,8 @@ spring under load, and no energy is made.
 
 from __future__ import annotations
 
+import math
+
 import mujoco
 import numpy as np
 from numba import njit
@@ -32,9 +34,11 @@ NEAR_RAD = 0.7  # the same for limits of one joint: nothing turns farther than t
 SWEEPS = 40
 FARTHEST_M = 0.25  # nothing within a body closes faster than this in EASE_S
 LEAST_APART_M = 1e-6  # of two axes: nearer than this, there is no saying which way is out
+TOUCHING_M, TOUCHING_RAD = 0.01, 0.05  # what a blow closes at once: these count as touching
 MOST_SWING_RAD = 2.9  # nearer to half a turn, where the axis of a swing flips, its components say nothing
 NUDGE_RAD = 1e-6
 LEAST_GIVE = 1e-9  # 1 / kg, 1 / kg m^2: what gives less is no stop, its row is all but nothing
+LEAST_NEW = 1e-8  # of what it gives: the rest of a row that others leave
 
 _TRUNK = ("pelvis", "belly", "chest", "upper_chest", "neck", "head")
 
@@ -87,7 +91,7 @@ def hold(model, qpos_before: np.ndarray, target: np.ndarray, h: float) -> None:
     rows, least = np.zeros((MOST_ROWS, m.nv)), np.empty(MOST_ROWS)
     count = find(
         PARENT, body.offset_m, body.limit_low_rad, body.limit_high_rad, target, model.capsules, model.pairs,
-        qpos_before, d.qvel, h, rows, least,
+        qpos_before, d.qvel, max(EASE_S, h), FARTHEST_M, NEAR_RAD, rows, least,
     )  # fmt: skip
     if count == 0:
         return
@@ -97,6 +101,59 @@ def hold(model, qpos_before: np.ndarray, target: np.ndarray, h: float) -> None:
     if meet(rows, answers, least, d.qvel):
         d.qpos[:] = qpos_before
         mujoco.mj_integratePos(m, d.qpos, d.qvel, h)
+
+
+def braces(model, qpos: np.ndarray, towards: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """The stops that touch already and hold against a change of velocities (nv,): rows (N, nv) and M^-1 rows.
+
+    A hand that lies on the head gives way to a ball no more than the head does. Needs MuJoCo's data at that pose.
+    """
+    m, body = model.mujoco_model, model.body
+    rows, least = np.zeros((MOST_ROWS, m.nv)), np.empty(MOST_ROWS)
+    count = find(
+        PARENT, body.offset_m, body.limit_low_rad, body.limit_high_rad, qpos[3:].reshape(JOINT_COUNT, 4),
+        model.capsules, model.pairs, qpos, towards, np.inf, TOUCHING_M, TOUCHING_RAD, rows, least,
+    )  # fmt: skip
+    rows = rows[:count]
+    answers = np.empty_like(rows)
+    if count:
+        mujoco.mj_solveM(m, model.data, answers, rows)
+        holds = impulses(rows, answers, np.zeros(count), towards) > 0.0
+        rows, answers = np.ascontiguousarray(rows[holds]), np.ascontiguousarray(answers[holds])
+    return rows, answers
+
+
+@njit(cache=True)
+def braced(rows, answers, changes):
+    """Changes of velocity (K, nv) as they are when no row (N, nv) moves for them, in place. answers: M^-1 rows.
+
+    One row after the other, each made independent of those before it (Gram and Schmidt, in the metric of M^-1); a row
+    that says nothing new is passed over.
+    """
+    rows, answers = rows.copy(), answers.copy()
+    for a in range(len(rows)):
+        gave = _rate(rows[a], answers[a])
+        for b in range(a):
+            _without(rows[a], answers[a], rows[b], answers[b])
+        gives = _rate(rows[a], answers[a])
+        if gives < max(LEAST_GIVE, LEAST_NEW * gave):
+            rows[a], answers[a] = 0.0, 0.0
+            continue
+        scale = 1.0 / math.sqrt(gives)
+        rows[a], answers[a] = rows[a] * scale, answers[a] * scale
+        for change in changes:
+            rate = _rate(rows[a], change)
+            for k in range(len(change)):
+                change[k] -= answers[a, k] * rate
+
+
+@njit(cache=True)
+def _without(row, answer, other_row, other_answer):
+    """Takes out of a row, and its answer, what another of unit length has of it. In place."""
+    share = _rate(row, other_answer)
+    for k in range(len(row)):
+        row[k] -= other_row[k] * share
+        answer[k] -= other_answer[k] * share
 
 
 @njit(cache=True)
@@ -112,13 +169,17 @@ def depths_into(parent, offset_m, rotations, capsules, pairs, out):
 
 
 @njit(cache=True)
-def find(parent, offset_m, low, high, target, capsules, pairs, qpos, qvel, h, rows, least):
-    """Fills in the rows (N, nv), zero before, and bounds (N,) of all stops that are broken or nearly so; how many."""
+def find(
+    parent, offset_m, low, high, target, capsules, pairs, qpos, qvel, ease_s, farthest_m, farthest_rad, rows, least
+):
+    """Fills in the rows (N, nv), zero before, and bounds (N,) of all stops that are broken or nearly so; how many.
+
+    No stop that is farther off than farthest_m or farthest_rad is looked at.
+    """
     positions, orientations = world_frames(parent, offset_m, qpos)
-    ease_s = max(EASE_S, h)
     count = 0
     for j in range(1, JOINT_COUNT):
-        count = _limits_of(j, qpos, qvel, low[j], high[j], target[j], ease_s, rows, least, count)
+        count = _limits_of(j, qpos, qvel, low[j], high[j], target[j], ease_s, farthest_rad, rows, least, count)
     ends = capsules_at(capsules, positions, orientations)
     for n in range(len(pairs)):
         if count == len(least):
@@ -126,7 +187,7 @@ def find(parent, offset_m, low, high, target, capsules, pairs, qpos, qvel, h, ro
         a, b = pairs[n, 0], pairs[n, 1]
         on_a, on_b, gap_m = _nearest(ends[a], ends[b], capsules.radius_m[a] + capsules.radius_m[b])
         apart_m = vector.distance(on_a, on_b)
-        if gap_m > FARTHEST_M or apart_m < LEAST_APART_M:
+        if gap_m > farthest_m or apart_m < LEAST_APART_M:
             continue
         normal = vector.scale(vector.subtract(on_a, on_b), 1.0 / apart_m)
         row = rows[count]
@@ -172,7 +233,7 @@ def _add_place(parent, positions, orientations, joint, place, normal, sign, row)
 
 
 @njit(cache=True)
-def _limits_of(j, qpos, qvel, low, high, target, ease_s, rows, least, count):
+def _limits_of(j, qpos, qvel, low, high, target, ease_s, farthest_rad, rows, least, count):
     """Adds the rows of one joint's limits, those that the target oversteps moved out to it: all that are not far, if
     one is broken, since what holds that one turns into the others."""
     a, v = 3 + 4 * j, 3 + 3 * j
@@ -189,7 +250,7 @@ def _limits_of(j, qpos, qvel, low, high, target, ease_s, rows, least, count):
     for k in range(3):
         for sign in (1.0, -1.0):
             room = now[k] - min(low[k], aim[k]) if sign > 0.0 else max(high[k], aim[k]) - now[k]
-            if room > NEAR_RAD or count == len(least):
+            if room > farthest_rad or count == len(least):
                 continue
             rate = 0.0
             for axis in range(3):
@@ -208,16 +269,25 @@ def _limits_of(j, qpos, qvel, low, high, target, ease_s, rows, least, count):
 @njit(cache=True)
 def meet(rows, answers, least, qvel):
     """Changes velocities (nv,) so that every bound is met; False if they all were. answers (N, nv): M^-1 rows."""
-    count, size = rows.shape
-    gives, rate, impulse = np.zeros((count, count)), np.zeros(count), np.zeros(count)
     broken = False
-    for a in range(count):
-        rate[a] = _rate(rows[a], qvel)
-        broken |= rate[a] < least[a]
-        for b in range(count):
-            gives[a, b] = _rate(rows[a], answers[b])
+    for a in range(len(rows)):
+        broken |= _rate(rows[a], qvel) < least[a]
     if not broken:
         return False
+    impulse = impulses(rows, answers, least, qvel)
+    for a in range(len(rows)):
+        for k in range(len(qvel)):
+            qvel[k] += answers[a, k] * impulse[a]
+    return True
+
+
+@njit(cache=True)
+def impulses(rows, answers, least, qvel):
+    """(N,) the impulses along the rows, none negative, that bring all rates to their bounds or above."""
+    count = len(rows)
+    gives, rate, impulse = _gives(rows, answers), np.empty(count), np.zeros(count)
+    for a in range(count):
+        rate[a] = _rate(rows[a], qvel)
     for _ in range(SWEEPS):
         for a in range(count):
             if gives[a, a] < LEAST_GIVE:
@@ -227,7 +297,14 @@ def meet(rows, answers, least, qvel):
             impulse[a] = wanted
             for b in range(count):
                 rate[b] += gives[b, a] * change
-    for a in range(count):
-        for k in range(size):
-            qvel[k] += answers[a, k] * impulse[a]
-    return True
+    return impulse
+
+
+@njit(cache=True)
+def _gives(rows, answers):
+    """(N, N) how the rates of the rows answer to impulses along them: rows M^-1 rows^T."""
+    out = np.empty((len(rows), len(rows)))
+    for a in range(len(rows)):
+        for b in range(len(rows)):
+            out[a, b] = _rate(rows[a], answers[b])
+    return out

@@ -9,8 +9,9 @@ import pytest
 
 from behaviours import feet as foot_plan
 from behaviours.components import Blend, Feet, Phase, Playback, Posture, Reaction, Sustained
+from behaviours.knocked_down import has_fallen
 from behaviours.playing import clip_pose, planted_in_clip
-from behaviours.recovery import has_fallen, move_sustained_over_feet, return_blend_ticks, return_clip_s
+from behaviours.recovery import move_sustained_over_feet, return_blend_ticks, return_clip_s
 from engine.body.footing import sole_depth_m
 from engine.body.kinematics import com_of, joints_of
 from engine.body.skeleton import ANKLES, PELVIS, Pose

@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 from engine.body import kinematics
 from engine.body.skeleton import HEAD, WRISTS, Pose
 from engine.maths import ballistics, quaternion
-from engine.physics import impact, ragdoll
+from engine.physics import impact, ragdoll, stops
 from engine.physics.impact import Ball, Material
 from tests.physics.standing import BODY, MODEL, SHAPES, TICK_S, kinetic_energy, momentum, moving, standing
 
@@ -86,15 +86,20 @@ def test_momentum_restitution_friction_and_energy(seed, mass_kg, restitution, fr
         assert np.linalg.norm(slip) < 1e-7
 
 
-def test_mobility_is_that_of_the_dense_matrix():
-    state, hit, _ = random_contact(3, 0.27)
+@pytest.mark.parametrize("seed", range(8))
+def test_mobility_is_that_of_the_dense_matrix(seed):
+    """With whatever touches, and holds against the push, as equations: the KKT system's Schur complement."""
+    state, hit, _ = random_contact(seed, 0.27)
     place = impact._locate(MODEL, state, hit.joint, hit.place_m)
     np.testing.assert_allclose(place, hit.point_m, atol=1e-9)
-    gives, _ = impact._mobility(MODEL, place, hit.joint)
+    gives, _ = impact._mobility(MODEL, place, hit.joint, hit.normal)
     dense = np.empty((MODEL.mujoco_model.nv,) * 2)
     mujoco.mj_fullM(MODEL.mujoco_model, MODEL.data, dense)
+    inverse = np.linalg.inv(dense)
     jacobian = impact._jacobian(MODEL, place, hit.joint)
-    np.testing.assert_allclose(gives, jacobian @ np.linalg.inv(dense) @ jacobian.T, rtol=1e-8, atol=1e-10)
+    rows, _ = stops.braces(MODEL, MODEL.data.qpos, -inverse @ jacobian.T @ hit.normal)
+    inverse -= inverse @ rows.T @ np.linalg.pinv(rows @ inverse @ rows.T) @ rows @ inverse
+    np.testing.assert_allclose(gives, jacobian @ inverse @ jacobian.T, rtol=1e-7, atol=1e-9)
 
 
 def test_joints_transmit_the_blow():
@@ -106,7 +111,7 @@ def test_joints_transmit_the_blow():
     hit = impact.first_hit(SHAPES, frames, frames, centre, centre - [0.6, 0, 0], 0.105)
     assert hit.part == "head"
     place = impact._locate(MODEL, state, hit.joint, hit.place_m)
-    gives, _ = impact._mobility(MODEL, place, hit.joint)
+    gives, _ = impact._mobility(MODEL, place, hit.joint, hit.normal)
     weight = 1.0 / (hit.normal @ gives @ hit.normal)
     assert 0.5 * BODY.part_mass_kg[HEAD] < weight < 0.25 * BODY.part_mass_kg.sum()
 
@@ -149,7 +154,7 @@ def test_momentum_of_ball_body_and_earth_balances_at_every_sub_step(duration_s):
     _, state = moving(np.random.default_rng(5))
     impulse = np.array([-9.0, 2.0, 1.0])
     turning = np.zeros(3)
-    given_ = impact.Impulse(-impulse, turning, HEAD, np.array([0.09, 0.0, 0.06]), 25.0)
+    given_ = impact.Impulse(-impulse, turning, HEAD, np.array([0.09, 0.0, 0.06]), 25.0, -impulse / 9.0)
     ball = Ball(0.27, 0.105, (1.0, 0.0, 21.5), (-25.0, 0.0, 0.0))
     h = TICK_S / 4
     total = momentum(MODEL, state)[0] + ball_momentum(ball)[0]

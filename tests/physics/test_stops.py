@@ -11,8 +11,8 @@ from engine.body import kinematics, limits
 from engine.body.capsules import CAPSULES, capsules_at
 from engine.body.skeleton import ELBOWS, HEAD, JOINT_COUNT, PARENT, SHOULDERS, WRISTS, Pose
 from engine.clips.mirror import mirror_pose
-from engine.maths import quaternion
-from engine.physics import ragdoll, stops
+from engine.maths import quaternion, vector
+from engine.physics import impact, ragdoll, stops
 from engine.physics.impact import Push
 from tests.physics.standing import BODY, MODEL, SHAPES, TICK_S, kinetic_energy, momentum, standing
 
@@ -70,23 +70,52 @@ def test_limp_and_whirling_no_joint_passes_its_limits_and_no_arm_goes_in(seed):
         assert (depths_m(state) - began).max() < 0.005
 
 
-def test_a_hand_thrown_at_the_face_stops_at_it():
-    """A ball's impulse against both hands, from ahead: they are pressed against the head, never into it."""
+def hands_thrown_at_the_face():
+    """States of 24 ticks, a ball's impulse against both hands from ahead in the first two."""
     pose = guarding()
-    state, nearest = ragdoll.start(MODEL, pose, pose, TICK_S), np.inf
+    states = [ragdoll.start(MODEL, pose, pose, TICK_S)]
     pushes = [
         Push(w, np.array([0.0, 0.0, -0.08]), np.array([-6.0, -4.0 * sign, 2.0]), 0.0, 0.01)
         for w, sign in zip(WRISTS, (1.0, -1.0), strict=True)
     ]
-    heads = [n for n, pair in enumerate(MODEL.pairs) if CAPSULES.index("head") in pair]
     for k in range(24):
         blow = tuple(push._replace(since_s=k * TICK_S) for push in pushes)
-        state = ragdoll.step(MODEL, state, pose, 1.0, 1.0, TICK_S, blow)
-        ends = capsules_at(SHAPES, *kinematics.joints_of(BODY, ragdoll.pose_of(MODEL, state)))
-        for n in heads:
-            a, b = MODEL.pairs[n]
-            nearest = min(nearest, stops._nearest(ends[a], ends[b], SHAPES.radius_m[a] + SHAPES.radius_m[b])[2])
-    assert -0.005 < nearest < 0.02  # it did come to touching
+        states.append(ragdoll.step(MODEL, states[-1], pose, 1.0, 1.0, TICK_S, blow))
+    return states
+
+
+def nearest(state, one, other):
+    """The gap between two capsules and the way from the second to the first."""
+    a, b = CAPSULES.index(one), CAPSULES.index(other)
+    ends = capsules_at(SHAPES, *kinematics.joints_of(BODY, ragdoll.pose_of(MODEL, state)))
+    on_a, on_b, gap_m = stops._nearest(ends[a], ends[b], SHAPES.radius_m[a] + SHAPES.radius_m[b])
+    return gap_m, np.array(vector.unit(np.subtract(on_a, on_b), (0.0, 0.0, 1.0)))
+
+
+def test_a_hand_thrown_at_the_face_stops_at_it():
+    """It is pressed against the head, never into it."""
+    parts = [f"{side}_{part}" for side in ("left", "right") for part in ("hand", "forearm")]
+    gaps = [nearest(state, part, "head")[0] for state in hands_thrown_at_the_face() for part in parts]
+    assert -0.005 < min(gaps) < 0.02
+
+
+def test_a_hand_that_lies_on_the_face_gives_way_no_more_than_the_head(monkeypatch):
+    """What a ball meets there is hand and head in one, not a hand that is free to fly."""
+    state = min(hands_thrown_at_the_face(), key=lambda state: nearest(state, "left_hand", "head")[0])
+    gap_m, outwards = nearest(state, "left_hand", "head")
+    assert gap_m < stops.TOUCHING_M
+    hand = CAPSULES.index("left_hand")
+    orientation = kinematics.joints_of(BODY, ragdoll.pose_of(MODEL, state))[1][WRISTS[0]]
+    middle = 0.5 * (SHAPES.start_m[hand] + SHAPES.end_m[hand])
+    place_m = middle + SHAPES.radius_m[hand] * np.array(quaternion.unrotate(orientation, outwards))
+
+    def mass_met_kg():
+        place = impact._locate(MODEL, state, WRISTS[0], place_m)
+        return 1.0 / (outwards @ impact._mobility(MODEL, place, WRISTS[0], outwards)[0] @ outwards)
+
+    on_the_face = mass_met_kg()
+    monkeypatch.setattr(stops, "braces", lambda *_: (np.empty((0, NV)), np.empty((0, NV))))
+    assert on_the_face > 2.0 * mass_met_kg()
 
 
 def test_what_begins_inside_comes_out_slowly_or_stays_as_the_target_has_it():
@@ -150,7 +179,7 @@ def test_a_row_is_how_the_gap_or_the_angle_changes_and_pushes_nobody_about():
     rows, least = np.zeros((stops.MOST_ROWS, NV)), np.empty(stops.MOST_ROWS)
     count = stops.find(
         PARENT, BODY.offset_m, BODY.limit_low_rad, BODY.limit_high_rad, pose.rotations, SHAPES, MODEL.pairs,
-        qpos, qvel, 1 / 480, rows, least,
+        qpos, qvel, stops.EASE_S, stops.FARTHEST_M, stops.NEAR_RAD, rows, least,
     )  # fmt: skip
     assert count > 5
     moved = qpos.copy()
