@@ -1,0 +1,226 @@
+"""The window of `brace demo` on a virtual display: everything is done by real keys and a real mouse, and judged by what
+the screen shows and by the files that were saved.
+"""
+
+from __future__ import annotations
+
+import json
+import time
+import tomllib
+
+import numpy as np
+import pytest
+from PIL import Image
+
+from engine.render.capture import count_frames
+from tests.window.desk import PATIENCE_S, Desk, needs_display
+
+pytestmark = needs_display
+WIDTH, HEIGHT = 960, 600
+PANEL = (650, 950)  # left and right of the panel, pixels
+PAPER = np.array((0.972, 0.966, 0.955))
+TIMELINE_Y, TIMELINE_X = 552, (22, 938)  # the phases, and where the line begins and ends
+TICK_PX = (TIMELINE_X[1] - TIMELINE_X[0]) / (12.0 * 120.0)
+
+
+@pytest.fixture(scope="module")
+def desk(tmp_path_factory):
+    with Desk(tmp_path_factory.mktemp("desk")) as desk:
+        desk.start("sway", "--set", "threat=[]", "--size", f"{WIDTH}x{HEIGHT}", "--quality", "fastest")
+        desk.until(lambda: is_paper(desk, 655, 200), "the panel")
+        yield desk
+
+
+def is_paper(desk, x, y):
+    """Whether a small patch is the panels' paper, which lets a little of the picture through."""
+    patch = desk.screen()[y - 3 : y + 3, x - 2 : x + 2]
+    return bool(np.abs(patch - PAPER).max() < 0.09)
+
+
+def picture(desk):
+    """The part of the screen where nothing lies on the picture."""
+    return desk.screen()[190:340, 260:640]
+
+
+def differ(a, b):
+    return float(np.abs(a - b).max()) > 0.1
+
+
+def stands_still(desk):
+    first = picture(desk)
+    time.sleep(0.5)
+    return not differ(first, picture(desk))
+
+
+def saved(desk, count):
+    """What the run is by now, as a scenario that is saved for it."""
+    desk.key("ctrl+s")
+    path = desk.file(f"scenario-{count}.toml")
+    return tomllib.loads(path.read_text())
+
+
+def test_space_pauses_and_goes_on(desk):
+    first = picture(desk)
+    desk.until(lambda: differ(first, picture(desk)), "a moving picture")
+    desk.key("space")
+    desk.until(lambda: stands_still(desk), "a still picture")
+    desk.key("space")
+    still = picture(desk)
+    desk.until(lambda: differ(still, picture(desk)), "a moving picture again")
+
+
+def test_tab_takes_the_panels_away_and_brings_them_back(desk):
+    desk.key("Tab")
+    desk.until(lambda: not is_paper(desk, 655, 200), "no panel")
+    desk.key("Tab")
+    desk.until(lambda: is_paper(desk, 655, 200), "the panel")
+
+
+def test_a_throw_is_held_and_let_go_at_what_is_under_the_cursor(desk):
+    desk.move(480, 160)
+    desk.xdotool("keydown", "f")
+    time.sleep(1.5)
+    desk.xdotool("keyup", "f")
+    time.sleep(0.5)
+    (command,) = saved(desk, 1)["command"]
+    assert np.linalg.norm(command["throw"]["velocity_mps"]) == pytest.approx(30.0, rel=0.1)  # held to the full
+
+
+def test_a_slider_is_dragged_and_the_threat_sent_by_its_button(desk):
+    desk.click(PANEL[0] + 45, 30)  # the Threat tab
+    desk.drag(PANEL[0] + 211, 120, PANEL[0] + 150, 120)  # azimuth, to the left
+    time.sleep(0.3)
+    desk.click(PANEL[0] + 150, 412)  # Send it now
+    time.sleep(0.5)
+    commands = saved(desk, 2)["command"]
+    assert len(commands) == 2
+    assert commands[1]["threat"]["azimuth_deg"] < -40.0
+
+
+def test_panels_do_not_turn_the_camera_and_the_picture_does(desk):
+    desk.key("space")
+    desk.until(lambda: stands_still(desk), "a still picture")
+    still = picture(desk)
+    desk.drag(PANEL[0] + 150, 560 - 70, PANEL[0] + 40, 560 - 70)  # on the panel's paper
+    time.sleep(0.5)
+    assert not differ(still, picture(desk))
+    desk.drag(450, 300, 520, 300)
+    desk.until(lambda: differ(still, picture(desk)), "another view")
+
+
+def test_the_timeline_is_clicked_and_dragged(desk):
+    """Paused by the test before. What was thrown can be gone back to, and another throw begins another future."""
+    desk.key("End")
+    time.sleep(0.3)
+    ends = picture(desk)
+    last = saved(desk, 3)["duration_s"]
+    desk.click(TIMELINE_X[0] + 30 * TICK_PX, TIMELINE_Y)
+    desk.until(lambda: differ(ends, picture(desk)), "an earlier picture")
+    early = picture(desk)
+    desk.drag(TIMELINE_X[0] + 30 * TICK_PX, TIMELINE_Y, TIMELINE_X[0] + 90 * TICK_PX, TIMELINE_Y)
+    desk.until(lambda: differ(early, picture(desk)) or True, "a later picture")
+    now = dark_column(desk)
+    assert now == pytest.approx(TIMELINE_X[0] + 90 * TICK_PX, abs=6)
+    assert saved(desk, 4)["duration_s"] == last  # looking back loses nothing
+    desk.key("t")
+    time.sleep(0.5)
+    desk.key("space")
+    after = saved(desk, 5)
+    assert after["duration_s"] < last
+    assert len(after["command"]) == 1
+
+
+def dark_column(desk) -> float:
+    """Where the needle of the timeline stands."""
+    strip = desk.screen()[TIMELINE_Y - 22 : TIMELINE_Y + 5, TIMELINE_X[0] - 4 : TIMELINE_X[1] + 4].mean(axis=(0, 2))
+    return TIMELINE_X[0] - 4 + float(np.argmin(strip))
+
+
+def test_single_steps_move_the_needle_by_ticks(desk):
+    desk.until(lambda: stands_still(desk), "a still picture")
+    before = dark_column(desk)
+    desk.key(*["comma"] * 12)
+    time.sleep(0.5)
+    assert before - dark_column(desk) == pytest.approx(12 * TICK_PX, abs=1.6)
+    desk.key(*["period"] * 12)
+    time.sleep(0.5)
+    assert dark_column(desk) == pytest.approx(before, abs=1.1)
+
+
+def test_help_shows_and_goes(desk):
+    still = picture(desk)
+    desk.key("F1")
+    desk.until(lambda: is_paper(desk, 469, 250), "the help")
+    assert differ(still, picture(desk))
+    desk.key("Escape")
+    desk.until(lambda: not is_paper(desk, 469, 250), "no help")
+
+
+def test_a_screenshot_is_the_picture_without_what_lies_on_it(desk):
+    desk.key("p")
+    path = desk.file("screenshot-1.png")
+    time.sleep(0.5)
+    with Image.open(path) as kept:
+        assert kept.size == (WIDTH, HEIGHT)
+        shot = np.asarray(kept).astype(float) / 255.0
+    shown = desk.screen()[:HEIGHT, :WIDTH]
+    assert np.abs(shot[190:340, 260:420] - shown[190:340, 260:420]).max() < 0.02
+    assert np.abs(shot[150:300, 652:662] - PAPER).max() > 0.15  # where the panel lies on the screen
+
+
+def test_search_takes_the_keys_while_it_is_typed_in(desk):
+    desk.click(PANEL[0] + 45, 55)  # the Clips tab
+    time.sleep(0.5)
+    desk.click(PANEL[0] + 100, 98)
+    desk.xdotool("type", "sway p t")
+    time.sleep(0.5)
+    assert not (desk.folder / "screenshot-2.png").exists()
+    desk.click(450, 350)
+    desk.key("p")
+    desk.file("screenshot-2.png")
+
+
+def test_a_film_is_made_while_it_plays(desk):
+    desk.key("space")
+    desk.key("r")
+    time.sleep(2.0)
+    desk.key("r")
+    path = desk.file("film-1.mp4")
+    assert 20 <= count_frames(path) <= 60 * PATIENCE_S
+
+
+def test_the_panels_go_along_with_the_size(desk):
+    desk.xdotool("windowsize", "--sync", desk.window, "800", "500")
+    desk.until(lambda: is_paper(desk, 495, 200) and not is_paper(desk, 482, 200), "the panel at its new place")
+    desk.xdotool("windowsize", "--sync", desk.window, str(WIDTH), str(HEIGHT))
+    desk.until(lambda: is_paper(desk, 655, 200) and not is_paper(desk, 642, 200), "the panel at its old place")
+
+
+def test_minimised_it_lives_on(desk):
+    desk.xdotool("windowunmap", "--sync", desk.window)
+    time.sleep(0.5)
+    desk.xdotool("windowmap", "--sync", desk.window)
+    desk.xdotool("windowfocus", desk.window)
+    desk.until(lambda: is_paper(desk, 655, 200), "the panel")
+    first = picture(desk)
+    desk.until(lambda: differ(first, picture(desk)), "a moving picture")
+
+
+def test_closed_it_ends_in_order_and_remembers(desk):
+    desk.click(PANEL[0] + 115, 55)  # the View tab
+    time.sleep(0.5)
+    desk.key("g")
+    desk.xdotool("windowquit", desk.window)
+    program = desk.programs[0]
+    assert program.wait(PATIENCE_S) == 0
+    kept = json.loads((desk.folder / "config" / "brace" / "window.json").read_text())
+    assert kept["tab"] == "View"
+    assert kept["view"]["ghost_rules"] is True
+    desk.start("sway", "--size", f"{WIDTH}x{HEIGHT}", "--quality", "fastest")
+    desk.until(lambda: is_paper(desk, 655, 200), "the panel")
+    desk.click(PANEL[0] + 45, 30)
+    desk.xdotool("windowquit", desk.window)
+    assert desk.programs[1].wait(PATIENCE_S) == 0
+    kept = json.loads((desk.folder / "config" / "brace" / "window.json").read_text())
+    assert kept["view"]["ghost_rules"] is True
+    assert kept["tab"] == "Threat"
