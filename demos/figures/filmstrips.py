@@ -19,7 +19,7 @@ LOOK = Look(-62.0, 9.0)
 PITCH_M = 1.12
 PICTURES, PICTURES_DOWN = 10, 8  # somebody who lies takes more of the strip
 HEAD, BAND = 28, 26  # units over and under each strip
-NEAR_M = 1.3  # balls farther off are left out
+NEAR_M = 0.8  # balls farther off, which would fly among the neighbours, are left out
 MILD: dict[str, Any] = {"azimuth_deg": 25.0, "elevation_deg": 10.0, "speed_mps": 26.0, "size": 0.5, "perceived_s": 0.5}
 EXTREME: dict[str, Any] = {
     **MILD,
@@ -29,7 +29,10 @@ EXTREME: dict[str, Any] = {
     "size_means": "radius",
     "mass_kg": 4.0,
 }
-KNOCK_DOWN: dict[str, Any] = {**EXTREME, "target": "pelvis", "mass_kg": 10.0}
+KNOCK_DOWN: dict[str, Any] = {
+    **MILD, "kind": "custom", "target": "torso", "azimuth_deg": 0.0, "size": 1.0, "mass_kg": 12.0, "radius_m": 0.2,
+    "speed_mps": 16.0, "speed_range_mps": [8.0, 20.0],
+}  # fmt: skip
 GET_UPS = ("getup_faceup", "getup_facedown")
 
 
