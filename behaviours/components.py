@@ -82,7 +82,9 @@ class Blend(Component):
     since = column(dtype=np.int64)
     ticks = column()  # how long it lasts; not whole, since slack stretches it
     support = column(dtype=np.int64)  # the primary support foot: side 0 or 1, or NOBODY: both ends lie
-    arcs = column(2, 2)  # left, right: how far the hands' ways are bent off their straight lines, see `choose_arcs`
+    modes = column(2, dtype=np.int64)  # left, right: how the arms go, see `behaviours.arm_ways`,
+    bends = column(2, 2, 4)  # and how far their ways are bent, radians
+    knees_m = column(2, 3)  # where the knees were at the last tick
 
 
 class Sustained(Component):

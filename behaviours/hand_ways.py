@@ -1,87 +1,117 @@
 """Which way each hand goes in a blend: the thesis's straight line (4.3), unless that is no way for an arm.
 
-Straight hand lines pass through torso or head in half the cases (specification A7). Once for a blend, a few ways are
-tried along their whole length and the straightest good one is kept; `behaviours.blending` then follows it.
+Straight hand lines pass through torso or head in half the cases (specification A7), and past the shoulder along ways
+that no shoulder follows. Once for a blend, before it begins, each arm is tried along its whole way: straight first,
+then with its elbow led otherwise; failing that it is swung, as `behaviours.swung_ways` finds best.
+`behaviours.arm_ways` then follows what was chosen. Each arm is judged beside the other as that was before, so left and
+right are treated alike.
 """
 
 from __future__ import annotations
 
+from typing import NamedTuple
+
 import numpy as np
 from numba import njit
 
-from behaviours.blending import arms_between, blend_trunk_and_legs
-from behaviours.clearing import depths_at, let_be, overrun_between
-from behaviours.overlap import ARM_CAPSULES, PAIRS
-from engine.body.skeleton import ELBOWS, JOINT_COUNT, PELVIS, SHOULDERS
+from behaviours.arm_ways import INTERPOLATED, KNOT_PARTS, KNOTS, SLERPED, SWUNG, follow_way, overstep
+from behaviours.blending import BlendEnd
+from behaviours.overlap import ARM_CAPSULES, PAIRS, too_deep
+from behaviours.swung_ways import bend_swung, put_capsules
+from behaviours.timing import ease
+from engine.body.kinematics import joints_of
+from engine.body.skeleton import ELBOWS, PELVIS, SHOULDERS, Pose
 from engine.maths import vector
+from engine.maths.copying import copy_into
 
-# (share of the slerped arm's way, bow): straight; straight, but with the slerped arm's elbow; ever more the slerped
-# arm's way, with a negative share the shoulder mixed by components; then bowed out, metres, ahead and aside, round
-# the trunk
-ARC_WAYS = np.array([
-    (0.0, 0.0), (1e-3, 0.0), (-1e-3, 0.0), (0.25, 0.0), (-0.25, 0.0),
-    (0.5, 0.0), (-0.5, 0.0), (0.75, 0.0), (1.0, 0.0), (-1.0, 0.0),
-    (1e-3, 0.12), (-1e-3, 0.12), (0.5, 0.12), (-0.5, 0.12), (1.0, 0.12),
-    (1e-3, 0.24), (-1e-3, 0.24), (0.5, 0.24), (1.0, 0.24),
-])  # fmt: skip
-ARC_SAMPLES = 16
-ARC_STRIDE_M = 0.15  # an elbow that goes farther than this from one sample to the next turns over
-ARC_LIMIT_RAD = 0.005  # a line on which the shoulder goes this far beyond its limits, or
-ARC_DEPTH_M = 0.05  # the arm lies this deep in the body, is no line to follow
-ARC_LEVER_M = 0.3  # this much too deep is as bad as a radian beyond the limits
+MOMENTS = 17  # at which a way is judged
+APART_M = 0.010  # skins keep this far from each other, where they are so far at the ends
+TOLERATED_M, TOLERATED_RAD = 0.008, 0.005  # a way is good if it comes this near to what it should not
+STRIDE_M = 1.6  # an elbow that at its fastest would go farther than this in a whole blend turns over
+FAR_AWAY_M = 1e3
+
+
+class Moments(NamedTuple):
+    """A blend at a few moments, from its start to its end, K in all, C capsules, P pairs: the body without its arms."""
+
+    weight: np.ndarray  # (K,) eased
+    joints_m: np.ndarray  # (K, J, 3)
+    turned: np.ndarray  # (K, J, 4)
+    rotations: np.ndarray  # (K, J, 4)
+    ends_m: np.ndarray  # (K, C, 2, 3) both ends of every capsule
+    allowed_m: np.ndarray  # (K, P) how deep arms may be in the body
+
+
+def moments_of(body, capsules, start: BlendEnd, end: BlendEnd, progress: np.ndarray, poses: list[Pose]) -> Moments:
+    """A blend between two still ends at some moments (K,), shares of its time, in which it has these poses."""
+    weight = np.array([ease(u) for u in progress])
+    rotations = np.array([pose.rotations for pose in poses])
+    joints_m, turned = joints_of(body, Pose(np.array([pose.root_m for pose in poses]), rotations))
+    ends_m = np.empty((len(weight), len(ARM_CAPSULES), 2, 3))
+    allowed_m = np.empty((len(weight), len(PAIRS)))
+    for k in range(len(weight)):
+        put_capsules(capsules, -1, joints_m[k], turned[k], ends_m, k)
+        let_be(start.depths_m, end.depths_m, weight[k], allowed_m[k])
+    return Moments(weight, joints_m, turned, rotations, ends_m, allowed_m)
 
 
 @njit(cache=True)
-def arm_trouble(body, capsules, start, end, weight, side, rotations, positions, orientations):
-    """What is wrong with an arm on the way: radians beyond its shoulder's limits, and metres too deep in the body."""
-    joint = SHOULDERS[side]
-    beyond = overrun_between(body, joint, start.rotations[joint], end.rotations[joint], rotations[joint])
-    depths, allowed, deepest = np.empty(len(PAIRS)), np.empty(len(PAIRS)), 0.0
-    depths_at(capsules, positions, orientations, depths)
-    let_be(start.depths_m, end.depths_m, weight, allowed)
-    for n in range(len(PAIRS)):
-        # the other arm's way is not yet known: hands are kept apart as they go
-        if ARM_CAPSULES[PAIRS[n, 0], 0] == side and ARM_CAPSULES[PAIRS[n, 1], 0] < 0:
-            deepest = max(deepest, depths[n] - allowed[n])
-    return beyond, deepest
+def let_be(first_m, last_m, weight, out):
+    """The depth that each pair may have: what the two ends have, or else a gap of APART_M. Writes (P,)."""
+    for n in range(len(out)):
+        a, b = max(first_m[n], -APART_M), max(last_m[n], -APART_M)
+        out[n] = a + weight * (b - a)
 
 
 @njit(cache=True)
-def choose_arcs(body, capsules, start, end, support, goals):
-    """How each hand goes, (2, 2), one of ARC_WAYS: the first, a straight line, unless that is no way for an arm.
-
-    A line that leads deep through the body, or where the shoulder cannot follow, is bent towards the way that
-    slerping the arm takes, or round the trunk: by the first way that is good enough, else by the one that leaves
-    least wrong.
+def is_good(body, capsules, start, end, moments, side, ways, other_m):
+    """Puts one arm on its way at every moment, in place; returns whether that is a way for an arm, beside the other's
+    capsules (K, C, 2, 3).
     """
-    arcs, least = np.zeros((2, 2)), np.full(2, np.inf)
-    found = np.zeros(2, np.bool_)
-    root_m, rotations = np.empty(3), np.empty((JOINT_COUNT, 4))
-    positions, orientations = np.empty((JOINT_COUNT, 3)), np.empty((JOINT_COUNT, 4))
-    for way in range(len(ARC_WAYS)):
-        both, worst, elbows_m = np.empty((2, 2)), np.zeros(2), np.empty((2, 3))
+    shoulder, elbow, good, here = SHOULDERS[side], ELBOWS[side], True, (0.0, 0.0, 0.0)
+    for k in range(len(moments.weight)):
+        rotations, joints_m, turned = moments.rotations[k], moments.joints_m[k], moments.turned[k]
+        weight = moments.weight[k]
+        follow_way(body, start, end, weight, side, ways, rotations, joints_m, turned)
+        put_capsules(capsules, side, joints_m, turned, moments.ends_m, k)
+        before, here = here, vector.subtract(vector.at(joints_m, elbow), vector.at(joints_m, PELVIS))
+        if k > 0 and ways.modes[side] != SWUNG:
+            good = good and vector.distance(here, before) < STRIDE_M * (weight - moments.weight[k - 1])
+        beyond = overstep(
+            body, shoulder, start.rotations[shoulder], end.rotations[shoulder], weight, rotations[shoulder]
+        )[0]
+        good = good and max(abs(beyond[0]), abs(beyond[1]), abs(beyond[2])) < TOLERATED_RAD
+        for n in range(len(PAIRS)):
+            deep = too_deep(capsules.radius_m, n, side, k, moments.ends_m, other_m, moments.allowed_m)
+            good = good and deep < TOLERATED_M
+    return good
+
+
+@njit(cache=True)
+def choose_way(body, capsules, start, end, moments, side, ways, other_m):
+    """Chooses one arm's way, in place: the present one if that is good; else a straight one, if one is; else swung."""
+    if is_good(body, capsules, start, end, moments, side, ways, other_m):
+        return
+    for knot in range(KNOTS):
+        for part in range(KNOT_PARTS):
+            ways.bends[side, knot, part] = 0.0
+    for mode in (INTERPOLATED, SLERPED):
+        ways.modes[side] = mode
+        if is_good(body, capsules, start, end, moments, side, ways, other_m):
+            return
+    ways.modes[side] = SWUNG
+    bend_swung(
+        body, capsules, start, end, side, moments.weight, moments.joints_m, moments.turned, moments.ends_m, other_m,
+        moments.allowed_m, ways.bends[side],
+    )  # fmt: skip
+    is_good(body, capsules, start, end, moments, side, ways, other_m)
+
+
+@njit(cache=True)
+def choose_ways(body, capsules, start, end, moments, ways):
+    """Chooses both arms' ways, in place: each first as if the other were not there, then beside the other's."""
+    other_m = np.full(moments.ends_m.shape, FAR_AWAY_M)
+    for _ in range(2):
         for side in range(2):
-            both[side, 0], both[side, 1] = ARC_WAYS[way, 0], ARC_WAYS[way, 1]
-        for k in range(ARC_SAMPLES + 1):
-            weight = k / ARC_SAMPLES
-            blend_trunk_and_legs(
-                body, start, end, weight, support, goals, both, root_m, rotations, positions, orientations
-            )
-            arms_between(body, start, end, weight, both, rotations, positions, orientations)
-            for side in range(2):
-                beyond, deep = arm_trouble(body, capsules, start, end, weight, side, rotations, positions, orientations)
-                wrong = max(0.0, beyond - ARC_LIMIT_RAD) + max(0.0, deep - ARC_DEPTH_M) / ARC_LEVER_M
-                elbow = vector.subtract(positions[ELBOWS[side]], positions[PELVIS])
-                if k > 0:
-                    wrong += max(0.0, vector.distance(elbow, elbows_m[side]) - ARC_STRIDE_M) / ARC_LEVER_M
-                for axis in range(3):
-                    elbows_m[side, axis] = elbow[axis]
-                worst[side] = max(worst[side], wrong)
-        for side in range(2):
-            if not found[side] and worst[side] < least[side]:
-                least[side] = worst[side]
-                arcs[side, 0], arcs[side, 1] = ARC_WAYS[way, 0], ARC_WAYS[way, 1]
-                found[side] = worst[side] == 0.0
-        if found[0] and found[1]:
-            break
-    return arcs
+            choose_way(body, capsules, start, end, moments, side, ways, other_m)
+        copy_into(other_m.reshape(-1), moments.ends_m.reshape(-1))

@@ -10,13 +10,14 @@ from numba import njit
 
 from behaviours.timing import ease
 from engine.body.kinematics import joints_into
-from engine.body.limb_ik import apply_leg
+from engine.body.limb_ik import apply_leg, knee_zero, leg_swivel, side_sign
 from engine.body.skeleton import ANKLES, HIPS, JOINT_COUNT, KNEES, TOES
 from engine.body.two_bones import soft_reach
 from engine.maths import vector
 
 LEG_SOFT_M = 0.010  # a leg straightens over this length, instead of snapping straight
 LYING_LEG, STANDING_LEG = 0.2, 0.5  # hip over ankle in shares of the leg: it lies, or it may be standing
+UNDECIDED_M = 1e-4  # a knee this near to the line from hip to ankle points nowhere
 LEG_SPARE_M = 0.0005  # and stays this much short of it, but where its own motion has it straighter
 
 
@@ -28,6 +29,49 @@ class FootGoals(NamedTuple):
     toe: np.ndarray  # (2, 4) toe rotation, in the ankle's frame
     bound: np.ndarray  # (2,) bool: False lets that foot go with the pose
     bears: np.ndarray  # (2,) 0 to 1: how far the body goes down for that foot; one in the air is left behind instead
+
+
+class Knees(NamedTuple):
+    """How the knees go, both sides of a blend's two ends, left first."""
+
+    first_rad: tuple[float, float]  # their swivels at either end, as `engine.body.limb_ik.leg_swivel` measures them
+    last_rad: tuple[float, float]
+    least: bool  # the thesis's rule: they move the least since the last frame, instead of from end to end
+    before_m: np.ndarray  # (2, 3) where they were then, world
+
+
+@njit(cache=True)
+def knees_between(start, end, least, before_m):
+    """The knees of a blend from one pose to another; `start` and `end` as `behaviours.blending.BlendEnd`."""
+    return Knees(
+        (leg_swivel(start.positions, start.orientations, 0), leg_swivel(start.positions, start.orientations, 1)),
+        (leg_swivel(end.positions, end.orientations, 0), leg_swivel(end.positions, end.orientations, 1)),
+        least,
+        before_m,
+    )
+
+
+@njit(cache=True)
+def swivel_at(knees, weight, side, ankle_m, positions, orientations):
+    """A knee's swivel on the way, radians: between those of the ends, the shorter way round; or, with the thesis's rule
+    (4.3), where the circle on which the knee can be comes nearest to where it was a frame ago.
+    """
+    if knees.least:
+        hip = vector.at(positions, HIPS[side])
+        n = vector.unit(vector.subtract((ankle_m[0], ankle_m[1], ankle_m[2]), hip), (0.0, 0.0, -1.0))
+        pointing = vector.reject(vector.subtract(vector.at(knees.before_m, side), hip), n)
+        if vector.length(pointing) > UNDECIDED_M:
+            zero = vector.reject(knee_zero(orientations, n), n)
+            around = vector.inner(n, vector.cross(zero, pointing))
+            return side_sign(side) * math.atan2(around, vector.inner(zero, pointing))
+    return mix_angle(knees.first_rad[side], knees.last_rad[side], weight)
+
+
+@njit(cache=True)
+def mix_angle(first_rad, last_rad, weight):
+    """An angle on the shorter way round from the first to the last."""
+    way = (last_rad - first_rad + math.pi) % (2.0 * math.pi) - math.pi
+    return first_rad + weight * way
 
 
 @njit(cache=True)
@@ -55,11 +99,11 @@ def bend_toe(toe, rotations, side):
 
 
 @njit(cache=True)
-def hold_feet(body, goals, own_lengths, knee_swivels, root_m, rotations, positions, orientations):
+def hold_feet(body, goals, own_lengths, knees, weight, root_m, rotations, positions, orientations):
     """Leg IK onto the goals of both feet; lowers the pelvis first where a goal is out of a leg's reach. In place.
 
-    `own_lengths` (2,): how long the legs would be without any goal, see `drop_beyond_own`. `knee_swivels` (2,)
-    radians, as `engine.body.limb_ik.leg_swivel` measures them.
+    `own_lengths` (2,): how long the legs would be without any goal, see `drop_beyond_own`. `knees` at a weight of
+    their way.
     """
     drop = 0.0
     for side in range(2):
@@ -73,6 +117,7 @@ def hold_feet(body, goals, own_lengths, knee_swivels, root_m, rotations, positio
     for side in range(2):
         if goals.bound[side]:
             bend_toe(goals.toe, rotations, side)
+            swivel = swivel_at(knees, weight, side, goals.ankle_m[side], positions, orientations)
             apply_leg(
                 body,
                 rotations,
@@ -81,7 +126,7 @@ def hold_feet(body, goals, own_lengths, knee_swivels, root_m, rotations, positio
                 side,
                 goals.ankle_m[side],
                 goals.turned[side],
-                knee_swivels[side],
+                swivel,
                 LEG_SOFT_M * (1.0 - goals.bears[side]),
             )
 

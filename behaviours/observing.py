@@ -11,6 +11,7 @@ from enum import IntEnum
 import numpy as np
 
 from behaviours import feet as foot_plan
+from behaviours.arm_ways import SWUNG
 from behaviours.components import NOBODY, Blend, Feet, Phase, Playback, Posture, Ragdoll, Reaction
 from behaviours.playing import body_of, clip_pose, clip_time_s
 from behaviours.seams import MOMENT
@@ -62,7 +63,7 @@ class HandWay(IntEnum):
 
     STRAIGHT = 0
     BOWED = 1  # chosen so for the whole blend: the straight line leads through the body or where no shoulder follows
-    LED = 2  # pushed off its line just now, to keep clear of the body
+    LED = 2  # kept off its line just now, by the limits of its joints
     BEYOND_REACH = 3  # its line is farther, or nearer, than the arm goes
 
 
@@ -141,14 +142,14 @@ def _line(world, row: int, tick: int, body: Body) -> Line:
     ends = (Pose(b.from_root_m[row], b.from_rotations[row]), Pose(b.to_root_m[row], b.to_rotations[row]))
     joints_m = joints_of(body, source)[0]
     start_m, end_m = (joints_of(body, end)[0] for end in ends)
-    left, right = (way_of(body, side, b.arcs[row, side], led_m[side], joints_m) for side in range(2))
+    left, right = (way_of(body, side, b.modes[row, side], led_m[side], joints_m) for side in range(2))
     coms_m = (com_of(body, ends[0]), com_of(body, ends[1]))
     return Line(tick, joints_m, start_m, end_m, (left, right), com_of(body, source), coms_m)
 
 
-def way_of(body: Body, side: int, arc, led_m: float, joints_m: np.ndarray) -> HandWay:
-    """How a hand goes; `arc` (2,) is its row of `Blend.arcs`, `led_m` how far it is pushed off its way."""
-    if abs(arc[0]) >= 0.01 or arc[1] != 0.0:
+def way_of(body: Body, side: int, mode: int, led_m: float, joints_m: np.ndarray) -> HandWay:
+    """How a hand goes; `mode` is its row of `Blend.modes`, `led_m` how far limits keep it off its way."""
+    if mode == SWUNG:
         return HandWay.BOWED
     if led_m != 0.0:
         return HandWay.LED

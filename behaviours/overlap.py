@@ -29,6 +29,12 @@ ARM_CAPSULES = np.array(
 
 
 @njit(cache=True)
+def depths_at(capsules, positions, orientations, out):
+    """How deep each of PAIRS lies in each other in one pose, metres, negative when apart. Writes (P,)."""
+    depths_into(capsules_at(capsules, positions, orientations), capsules.radius_m, PAIRS, out)
+
+
+@njit(cache=True)
 def depths_into(ends, radius_m, pairs, out):
     """How deep the capsules of each pair (P, 2) lie in each other, metres; negative when apart. ends (C, 2, 3)."""
     for n in range(len(pairs)):
@@ -36,6 +42,34 @@ def depths_into(ends, radius_m, pairs, out):
         s, t = nearest_between(ends[a, 0], ends[a, 1], ends[b, 0], ends[b, 1])
         apart = vector.distance(vector.mix(ends[a, 0], ends[a, 1], s), vector.mix(ends[b, 0], ends[b, 1], t))
         out[n] = radius_m[a] + radius_m[b] - apart
+
+
+@njit(cache=True)
+def too_deep(radius_m, n, side, k, own_m, other_m, allowed_m):
+    """How much deeper than allowed (K, P) one of PAIRS is at moment k, metres; 0 where a side's arm has no part in it.
+
+    Both ends of all capsules (K, C, 2, 3): own_m has this side's arm and the trunk, other_m the other arm.
+    """
+    a, b = PAIRS[n, 0], PAIRS[n, 1]
+    if ARM_CAPSULES[a, 0] != side and ARM_CAPSULES[b, 0] != side:
+        return 0.0
+    p, q = segment(own_m, k, a), segment(own_m, k, b)
+    if ARM_CAPSULES[a, 0] == 1 - side:
+        p = segment(other_m, k, a)
+    if ARM_CAPSULES[b, 0] == 1 - side:
+        q = segment(other_m, k, b)
+    s, t = nearest_between(p[0], p[1], q[0], q[1])
+    apart = vector.distance(vector.mix(p[0], p[1], s), vector.mix(q[0], q[1], t))
+    return max(0.0, radius_m[a] + radius_m[b] - apart - allowed_m[k, n])
+
+
+@njit(cache=True)
+def segment(ends_m, k, c):
+    """Both ends of a capsule out of (K, C, 2, 3), as tuples: views would cost more than what is done with them."""
+    return (
+        (ends_m[k, c, 0, 0], ends_m[k, c, 0, 1], ends_m[k, c, 0, 2]),
+        (ends_m[k, c, 1, 0], ends_m[k, c, 1, 1], ends_m[k, c, 1, 2]),
+    )
 
 
 def overlaps_m(body: Body, poses: Pose) -> np.ndarray:

@@ -12,7 +12,7 @@ from __future__ import annotations
 
 from behaviours import feet as foot_plan
 from behaviours import seams
-from behaviours.blending import blend_end, knee_swivels_between, primary_support
+from behaviours.blending import blend_end, primary_support
 from behaviours.components import (
     NOBODY,
     Blend,
@@ -31,7 +31,7 @@ from behaviours.components import (
     Threat,
 )
 from behaviours.falling import begin_falling
-from behaviours.held_feet import hold_feet, leg_lengths
+from behaviours.held_feet import hold_feet, knees_between, leg_lengths
 from behaviours.knocked_down import has_fallen, response_is_over
 from behaviours.playing import body_of, capsules_of, clip_pose, perception_clip_s, planted_in_clip
 from behaviours.protection import perceived_threat, protect_from
@@ -43,7 +43,7 @@ from behaviours.sources import choose_hand_ways, foot_goals, source_pose
 from behaviours.sustained import Case
 from behaviours.timing import TICK_S, time_to_contact_s, whole_ticks
 from engine.body.kinematics import com_of, joints_of
-from engine.body.skeleton import ANKLES, Pose
+from engine.body.skeleton import ANKLES, KNEES, Pose
 from engine.core.schedule import Stage, system
 
 BUSY = (Phase.STARTLE, Phase.PROTECT, Phase.RESPOND, Phase.RECOVER_BLEND, Phase.DOWN, Phase.STOPPED)
@@ -85,7 +85,7 @@ def begin_blend(world, row: int, tick: int, start: Pose, end: Pose, ticks: float
     body = body_of(world, row)
     positions, _ = joints_of(body, start)
     b.support[row] = primary_support(f.planted[row], positions[list(ANKLES)], com_of(body, start))
-    choose_hand_ways(world, row, start, end)
+    choose_hand_ways(world, row)
 
 
 def begin_startle(world, row: int, tick: int, threat_row: int) -> None:
@@ -113,10 +113,9 @@ def standing_in(world, row: int, tick: int, pose: Pose) -> Pose:
     body = body_of(world, row)
     end = blend_end(body, capsules_of(world, row), *pose)
     goals = foot_plan.goals_of(world[Feet], row, tick)
-    swivels = knee_swivels_between(end, end, 0.0)
-    hold_feet(
-        body, goals, leg_lengths(end.positions), swivels, end.root_m, end.rotations, end.positions, end.orientations
-    )
+    knees = knees_between(end, end, False, end.positions[list(KNEES)])
+    own = leg_lengths(end.positions)
+    hold_feet(body, goals, own, knees, 0.0, end.root_m, end.rotations, end.positions, end.orientations)
     return Pose(end.root_m, end.rotations)
 
 

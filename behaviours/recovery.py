@@ -92,7 +92,6 @@ def plan_return(world, row: int, tick: int, begins: float) -> None:
     b.from_root_m[row], b.from_rotations[row] = sustained
     b.to_root_m[row], b.to_rotations[row] = back
     b.since[row], b.ticks[row], b.support[row] = round(begins), return_blend_ticks(world), support_side
-    choose_hand_ways(world, row, sustained, back)
     for side in range(2):
         start, end = foot_plan.planned(f, row, side), foot_plan.footing_of(body, back, side)
         since, ticks = b.since[row], b.ticks[row]
@@ -102,6 +101,7 @@ def plan_return(world, row: int, tick: int, begins: float) -> None:
             )
             since, ticks = f.since[row, side], b.since[row] + b.ticks[row] - f.since[row, side]
         foot_plan.hold_or_step(f, row, side, start, end, since, ticks, world.assets.settings.balance)
+    choose_hand_ways(world, row)
 
 
 def anchor_clip(world, row: int) -> int:

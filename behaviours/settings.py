@@ -219,6 +219,9 @@ class Blend(NamedTuple):
     )
     overshoot_period_s: Annotated[float, Constant("s", "A6", "its period")] = 0.5
     overshoot_half_life_s: Annotated[float, Constant("s", "A6", "its half-life")] = 0.12
+    knee_rule: Annotated[
+        str, Constant("name", "4.3, A7", "ends | least: knees go from end to end, or move least since the last frame")
+    ] = "ends"
     seam_half_life_s: Annotated[float, Constant("s", "A7", "half-life of what a seam leaves over")] = 0.07
 
 
@@ -305,6 +308,7 @@ class Settings(NamedTuple):
 CHOICES = {
     "objective.form": ("squares", "literal", "smoothed"),
     "solver.method": ("bfgs", "least_squares"),
+    "blend.knee_rule": ("ends", "least"),
     "timing.ttc_model": ("equation", "text"),
     "threats.low_path": ("raise", "shorten"),
 }

@@ -25,7 +25,7 @@ from behaviours.components import (
 from behaviours.held_feet import LEG_SOFT_M, drop_beyond_own, legs_to
 from behaviours.inertialise import add_remaining, nothing_left, remaining, remaining2, turned_by
 from behaviours.playing import body_of, clip_time_s, planted_in_clip
-from behaviours.sources import foot_goals, source_pose
+from behaviours.sources import foot_goals, note_knees, source_pose
 from engine.body.kinematics import joints_into
 from engine.body.limb_ik import apply_leg, leg_swivel
 from engine.body.limits import clamp_keeping
@@ -96,7 +96,7 @@ def stand_on(body, root_m, rotations, ankle_m, turned, bears, own_lengths):
 @system(
     Stage.SETTLE,
     reads=(Playback, Posture, Character, Reaction, Blend, Blow, Ragdoll, Feet, Residual, Sustained),
-    writes=(Posture, Feet, Reaction, Ragdoll, Residual),
+    writes=(Posture, Feet, Reaction, Ragdoll, Residual, Blend),
 )
 def settle_poses(world, tick):
     """Every character's pose of this tick."""
@@ -111,6 +111,7 @@ def settle_poses(world, tick):
         p.before_root_m[row], p.before_rotations[row] = p.root_m[row], p.rotations[row]
         p.root_m[row], p.rotations[row] = root_m, rotations
         world[Feet].planted[row] = standing_feet(world, int(row), tick)
+        note_knees(world, int(row), tick)
 
 
 def stop(world, row: int, tick: int) -> None:

@@ -9,20 +9,21 @@ from __future__ import annotations
 
 import numpy as np
 
-from behaviours.blending import blend_end, blend_into
+from behaviours.arm_ways import HandWays, straight_ways, swung_ways
+from behaviours.blending import BlendEnd, blend_end, blend_into
 from behaviours.components import NOBODY, Blend, Character, Feet, Phase, Posture, Ragdoll, Reaction
 from behaviours.feet import goals_of
-from behaviours.hand_ways import choose_arcs
-from behaviours.held_feet import FootGoals
+from behaviours.hand_ways import MOMENTS, choose_ways, moments_of
+from behaviours.held_feet import FootGoals, knees_between
 from behaviours.lying import blend_lying
 from behaviours.playing import body_of, capsules_of, clip_pose, clip_time_s
 from behaviours.timing import TICK_S, ease, overshoot, whole_ticks
 from engine.body.kinematics import joints_of
-from engine.body.skeleton import ANKLES, JOINT_COUNT, TOES, Pose
+from engine.body.skeleton import ANKLES, JOINT_COUNT, KNEES, TOES, Pose
 from engine.physics import ragdoll
 
 ANKLE_ROWS, TOE_ROWS = list(ANKLES), list(TOES)
-STRAIGHT = np.zeros((2, 2))
+BLENDING = (Phase.STARTLE, Phase.PROTECT, Phase.HOLD, Phase.RECOVER_BLEND, Phase.RECOVER_RETURN)
 PAUSING = (Phase.PROTECT, Phase.HOLD)  # the pose is there, the ball is not
 
 
@@ -57,17 +58,31 @@ def blended_pose(world, row: int, tick: float) -> Pose:
 
 
 def blended(world, row: int, tick: float) -> tuple[Pose, tuple[float, float]]:
-    """The same, and how far its hands were led off their straight lines to go round the body, metres."""
-    b = world[Blend]
-    body, shape = body_of(world, row), capsules_of(world, row)
-    start = blend_end(body, shape, b.from_root_m[row].copy(), b.from_rotations[row].copy())
-    end = blend_end(body, shape, b.to_root_m[row].copy(), b.to_rotations[row].copy())
-    weight = ease((tick - b.since[row]) / b.ticks[row])
+    """The same, and how far its joints' limits keep either hand off its way, metres."""
+    weight = ease((tick - world[Blend].since[row]) / world[Blend].ticks[row])
     if world[Reaction].phase[row] in PAUSING:
-        after_s = float(tick - b.since[row] - b.ticks[row]) * TICK_S
+        after_s = float(tick - world[Blend].since[row] - world[Blend].ticks[row]) * TICK_S
         s = world.assets.settings.blend
         weight += overshoot(after_s, s.overshoot_share, s.overshoot_period_s, s.overshoot_half_life_s)
-    return _between(world, row, tick, start, end, weight, b.arcs[row])
+    start, end = blend_ends(world, row)
+    least = world.assets.settings.blend.knee_rule == "least"
+    knees = knees_between(start, end, least, world[Blend].knees_m[row])
+    return between(world, row, tick, start, end, weight, ways_of(world[Blend], row), knees)
+
+
+def blend_ends(world, row: int) -> tuple[BlendEnd, BlendEnd]:
+    """The two still ends of the present blend."""
+    b = world[Blend]
+    body, shape = body_of(world, row), capsules_of(world, row)
+    return (
+        blend_end(body, shape, b.from_root_m[row].copy(), b.from_rotations[row].copy()),
+        blend_end(body, shape, b.to_root_m[row].copy(), b.to_rotations[row].copy()),
+    )
+
+
+def ways_of(blend, row: int) -> HandWays:
+    """How the hands go in a blend."""
+    return HandWays(blend.modes[row], blend.bends[row])
 
 
 def simulation_into_sustained(world, row: int, tick: float) -> Pose:
@@ -78,29 +93,51 @@ def simulation_into_sustained(world, row: int, tick: float) -> Pose:
     weight = ease((tick - world[Reaction].since[row] + 1) / part_one)
     start = blend_end(body, shape, simulated.root_m, simulated.rotations)
     end = blend_end(body, shape, returning.root_m, returning.rotations)
-    return _between(world, row, tick, start, end, weight, STRAIGHT)[0]
+    knees = knees_between(start, end, False, world[Blend].knees_m[row])
+    return between(world, row, tick, start, end, weight, swung_ways(), knees)[0]
 
 
-def _between(world, row, tick, start, end, weight, arcs) -> tuple[Pose, tuple[float, float]]:
+def between(world, row, tick, start, end, weight, ways, knees) -> tuple[Pose, tuple[float, float]]:
+    """A weight of the way from one end to another, on the feet as they are planned for that tick; returns as
+    `blended`.
+    """
     root_m, rotations = np.empty(3), np.empty((JOINT_COUNT, 4))
-    goals, support = goals_of(world[Feet], row, tick), int(world[Blend].support[row])
+    body, support = body_of(world, row), int(world[Blend].support[row])
     if support == NOBODY:
-        blend_lying(body_of(world, row), start, end, weight, root_m, rotations)
+        blend_lying(body, start, end, weight, root_m, rotations)
         return Pose(root_m, rotations), (0.0, 0.0)
-    body, shape = body_of(world, row), capsules_of(world, row)
-    led_m = blend_into(body, shape, start, end, weight, support, goals, arcs, root_m, rotations)
+    goals = goals_of(world[Feet], row, tick)
+    led_m = blend_into(body, start, end, weight, support, goals, ways, knees, root_m, rotations)
     return Pose(root_m, rotations), led_m
 
 
-def choose_hand_ways(world, row: int, start: Pose, end: Pose) -> None:
-    """Decides, once for a blend, how each hand goes from end to end; see `behaviours.hand_ways.choose_arcs`."""
-    body, shape, b = body_of(world, row), capsules_of(world, row), world[Blend]
-    b.arcs[row] = STRAIGHT
+def note_knees(world, row: int, tick: int) -> None:
+    """Keeps where the knees of the present blend are, for the rule that moves them least from here (thesis 4.3)."""
+    if world.assets.settings.blend.knee_rule == "least" and world[Reaction].phase[row] in BLENDING:
+        pose = blended_pose(world, row, tick)
+        world[Blend].knees_m[row] = joints_of(body_of(world, row), pose)[0][list(KNEES)]
+
+
+def choose_hand_ways(world, row: int) -> None:
+    """Decides, once for the present blend, whose feet are planned, how each hand goes (`behaviours.hand_ways`)."""
+    b, body = world[Blend], body_of(world, row)
+    b.modes[row], b.bends[row] = straight_ways()
+    b.knees_m[row] = joints_of(body, Pose(b.from_root_m[row], b.from_rotations[row]))[0][list(KNEES)]
     if b.support[row] == NOBODY:
         return  # both ends lie
-    goals = FootGoals(np.zeros((2, 3)), np.zeros((2, 4)), np.zeros((2, 4)), np.zeros(2, bool), np.zeros(2))
-    first, last = blend_end(body, shape, *start), blend_end(body, shape, *end)
-    b.arcs[row] = choose_arcs(body, shape, first, last, int(b.support[row]), goals)
+    start, end = blend_ends(world, row)
+    progress = np.linspace(0.0, 1.0, MOMENTS)
+    between_them = [
+        between(
+            world, row, b.since[row] + u * b.ticks[row], start, end, ease(u), straight_ways(),
+            knees_between(start, end, False, b.knees_m[row]),
+        )[0]
+        for u in progress
+    ]  # fmt: skip
+    ways = straight_ways()
+    shape = capsules_of(world, row)
+    choose_ways(body, shape, start, end, moments_of(body, shape, start, end, progress, between_them), ways)
+    b.modes[row], b.bends[row] = ways
 
 
 def foot_goals(world, row: int, tick: float, source: Pose) -> FootGoals:

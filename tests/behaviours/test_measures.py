@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 from behaviours import measures
+from behaviours.arm_ways import INTERPOLATED, SLERPED, SWUNG
 from behaviours.components import Phase
 from behaviours.head_measures import GRAVITY, PHYSICS_HZ, head_acceleration_g, hic15
 from behaviours.observing import HandWay, Line, Seam, Track, in_reach, way_of
@@ -170,11 +171,10 @@ def test_how_a_hand_goes():
     straight_arm = joints_of(BODY, STILL)[0]
     assert in_reach(BODY, 0, bent_arm)
     assert not in_reach(BODY, 0, straight_arm)
-    assert way_of(BODY, 0, np.zeros(2), 0.0, bent_arm) == HandWay.STRAIGHT
-    assert way_of(BODY, 0, np.zeros(2), 0.01, bent_arm) == HandWay.LED
-    assert way_of(BODY, 0, np.array([0.0, 0.12]), 0.0, bent_arm) == HandWay.BOWED
-    assert way_of(BODY, 0, np.array([-0.5, 0.0]), 0.01, bent_arm) == HandWay.BOWED
-    assert way_of(BODY, 0, np.zeros(2), 0.0, straight_arm) == HandWay.BEYOND_REACH
+    assert way_of(BODY, 0, INTERPOLATED, 0.0, bent_arm) == HandWay.STRAIGHT
+    assert way_of(BODY, 0, SLERPED, 0.01, bent_arm) == HandWay.LED
+    assert way_of(BODY, 0, SWUNG, 0.0, bent_arm) == HandWay.BOWED
+    assert way_of(BODY, 0, INTERPOLATED, 0.0, straight_arm) == HandWay.BEYOND_REACH
 
 
 def test_a_seam_jumps_by_the_worst_joint():

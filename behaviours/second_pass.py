@@ -1,0 +1,110 @@
+"""The second pass of a blend (thesis 4.3): the COM on the straight line between its two ends, and all that hangs on
+it.
+
+The pelvis is moved until the COM is where it is to be; at every try the feet are held by leg IK, the neck by the
+waist-neck chain, the head by its orientation, and the arms are put on their ways last, since all of that moves
+shoulders (specification A7).
+"""
+
+from __future__ import annotations
+
+from numba import njit
+
+from behaviours.arm_ways import follow_way
+from behaviours.held_feet import hold_feet, leg_lengths
+from behaviours.neck_line import hold_neck
+from engine.body.kinematics import centre_of_mass, joints_into
+from engine.body.limb_ik import turn_end_to
+from engine.body.skeleton import ANKLES, BACK, HEAD, HIPS, KNEES, NECK, TOES, WAIST
+from engine.maths import quaternion, vector
+
+TRIES, LAST_TRIES = 5, 2
+# how far the pelvis moves for a COM that is off by one: feet, neck and hands stay behind, so that it brings the COM
+# from two fifths of that to nearly all of it; of either, each try leaves less than a half
+GAIN = 1.5
+LAST_GAIN = 0.7
+LEGS_SHARE = 0.5  # of the pelvis's way that the legs go, feet held
+
+
+@njit(cache=True)
+def balance(body, start, end, weight, goals, ways, knees, root_m, rotations, positions, orientations):
+    """Moves the pelvis until the COM is on its line, everything else held where it belongs. In place.
+
+    start, end: BlendEnds; the pose is the first pass's. Returns how far limits keep either hand off its way, metres.
+
+    A straight knee moves ten times as far as the hip that bends it: were it let into the search, that would run away
+    from it. So the legs count as going half of the pelvis's way at first; as they do go only in the end, and not at
+    all where the blend begins and ends.
+    """
+    wanted_m = vector.mix(start.com_m, end.com_m, weight)
+    waist, back = quaternion.at(rotations, WAIST), quaternion.at(rotations, BACK)
+    led = hold_ends(body, start, end, weight, goals, ways, knees, root_m, rotations, positions, orientations)
+    legs, mass, legs_mass = legs_moment(body, positions, orientations)
+    inside = 1.0 - (1.0 - min(max(4.0 * weight * (1.0 - weight), 0.0), 1.0)) ** 4
+    first_m = (root_m[0], root_m[1], root_m[2])
+    for n in range(TRIES + LAST_TRIES):
+        com_m = centre_of_mass(body, positions, orientations)
+        off_m = vector.subtract(wanted_m, com_m)
+        if n < TRIES:
+            now, share = legs_moment(body, positions, orientations)[0], LEGS_SHARE * legs_mass
+            for k in range(3):
+                modelled = legs[k] + share * (root_m[k] - first_m[k])
+                root_m[k] += GAIN * (off_m[k] - (modelled - now[k]) / mass)
+        else:
+            for k in range(3):
+                root_m[k] += LAST_GAIN * inside * off_m[k]
+        quaternion.put(rotations, WAIST, waist)
+        quaternion.put(rotations, BACK, back)
+        led = hold_ends(body, start, end, weight, goals, ways, knees, root_m, rotations, positions, orientations)
+    return led
+
+
+@njit(cache=True)
+def legs_moment(body, positions, orientations):
+    """Both legs' masses times their places (kg m, world), all the mass there is, and theirs."""
+    moment, total, legs = (0.0, 0.0, 0.0), 0.0, 0.0
+    for part in range(len(body.part_mass_kg)):
+        joint, mass = body.part_joint[part], body.part_mass_kg[part]
+        total += mass
+        if joint >= HIPS[0]:
+            centre = quaternion.rotate(quaternion.at(orientations, joint), vector.at(body.part_com_m, part))
+            moment = vector.along(moment, vector.add(vector.at(positions, joint), centre), mass)
+            legs += mass
+    return moment, total, legs
+
+
+@njit(cache=True)
+def hold_ends(body, start, end, weight, goals, ways, knees, root_m, rotations, positions, orientations):
+    """Feet, neck, head and hands where they belong at this weight, whatever the pelvis. In place; returns as `balance`.
+    """
+    joints_into(body.offset_m, root_m, rotations, positions, orientations)
+    first, last = leg_lengths(start.positions), leg_lengths(end.positions)
+    lengths = (first[0] + weight * (last[0] - first[0]), first[1] + weight * (last[1] - first[1]))
+    hold_feet(body, goals, lengths, knees, weight, root_m, rotations, positions, orientations)
+    for side in range(2):
+        if not goals.bound[side]:
+            slerp_foot(body, start, end, weight, side, rotations, positions, orientations)
+    neck_m = vector.mix(vector.at(start.positions, NECK), vector.at(end.positions, NECK), weight)
+    hold_neck(body, neck_m, root_m, rotations, positions, orientations)
+    slerp_head(start, end, weight, rotations, orientations)
+    return (
+        follow_way(body, start, end, weight, 0, ways, rotations, positions, orientations),
+        follow_way(body, start, end, weight, 1, ways, rotations, positions, orientations),
+    )
+
+
+@njit(cache=True)
+def slerp_foot(body, start, end, weight, side, rotations, positions, orientations):
+    """Turns a foot that nothing holds to the slerp of its two orientations in the world. In place."""
+    ankle = ANKLES[side]
+    turned = quaternion.slerp(start.orientations[ankle], end.orientations[ankle], weight)
+    turn_end_to(body.offset_m, rotations, positions, orientations, KNEES[side], ankle, turned, TOES[side])
+
+
+@njit(cache=True)
+def slerp_head(start, end, weight, rotations, orientations):
+    """Turns the head to the slerp of its two orientations in the world, whatever the trunk does below. In place."""
+    turned = quaternion.slerp(start.orientations[HEAD], end.orientations[HEAD], weight)
+    local = quaternion.multiply(quaternion.conjugate(quaternion.at(orientations, NECK)), turned)
+    quaternion.put(rotations, HEAD, quaternion.normalise(local))
+    quaternion.put(orientations, HEAD, turned)
