@@ -337,7 +337,7 @@ def override(settings: Settings, changes: dict[str, Any]) -> Settings:
         if in_degrees:
             field = field.removesuffix("_deg") + "_rad"
         if group is None or field not in group._fields:
-            raise BadInput("E-SETTING", f"unknown setting {name!r}; expected {_nearest(name)}")
+            raise BadInput("setting", f"unknown setting {name!r}; expected {_nearest(name)}")
         settings = settings._replace(
             **{group_name: group._replace(**{field: _as_default(name, value, getattr(group, field), in_degrees)})}
         )
@@ -358,7 +358,7 @@ def _as_default(name: str, value: Any, default: Any, in_degrees: bool) -> Any:
             return value
         if isinstance(default, str):
             if value not in CHOICES[name]:
-                raise BadInput("E-SETTING", f"{name} is {value!r}; expected {' | '.join(CHOICES[name])}")
+                raise BadInput("setting", f"{name} is {value!r}; expected {' | '.join(CHOICES[name])}")
             return str(value)
         if isinstance(value, bool) or float(value) != float(value):
             raise ValueError
@@ -369,7 +369,7 @@ def _as_default(name: str, value: Any, default: Any, in_degrees: bool) -> Any:
         return float(value) * scale
     except (TypeError, ValueError):
         wanted = f"{len(default)} numbers" if isinstance(default, tuple) else type(default).__name__
-        raise BadInput("E-SETTING", f"{name} is {value!r}; expected {wanted}") from None
+        raise BadInput("setting", f"{name} is {value!r}; expected {wanted}") from None
 
 
 def _nearest(name: str) -> str:

@@ -17,9 +17,9 @@ import numpy as np
 
 from demos.filming import Moment, Shot
 from engine.body.skeleton import JOINTS
+from engine.core.files import whole_file
 from engine.render.camera import Camera, project
 from engine.render.capture import check_output
-from engine.render.capture.files import whole_file
 from engine.render.capture.pictures import check_folder_output, checked_measures, write_png_folder
 from engine.render.measures import NOTHING
 from engine.render.renderer import Renderer

@@ -1,14 +1,11 @@
-"""How commands speak: results on standard output, progress to a person only, a refusal before the long work."""
+"""How commands speak: results on standard output, progress to a person only."""
 
 from __future__ import annotations
 
 import json
 import os
 import sys
-from pathlib import Path
 from typing import Any
-
-from engine.core.errors import EnvironmentTrouble
 
 
 def print_json(data: Any) -> None:
@@ -25,17 +22,6 @@ def _laid_out(data: Any, indent: str) -> str:
     if isinstance(data, list) and any(isinstance(value, dict) for value in data):
         return "[\n" + ",\n".join(f"{within}{_laid_out(value, within)}" for value in data) + f"\n{indent}]"
     return json.dumps(data)
-
-
-def check_writable(path: str | os.PathLike[str]) -> Path:
-    """The path, if a file may be put there: asked before long work, so that no one waits for a refusal."""
-    path = Path(path)
-    folder = path.parent
-    if not folder.is_dir():
-        raise EnvironmentTrouble("unwritable", f"there is no folder {folder}", str(path))
-    if path.is_dir() or not os.access(folder, os.W_OK | os.X_OK) or (path.exists() and not os.access(path, os.W_OK)):
-        raise EnvironmentTrouble("unwritable", "cannot be written", str(path))
-    return path
 
 
 def say(message: str) -> None:

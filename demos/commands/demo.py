@@ -151,5 +151,5 @@ def _picture_folder(name: str) -> Path:
     try:
         folder.mkdir(parents=True, exist_ok=True)
     except OSError as trouble:
-        raise EnvironmentTrouble("UNWRITABLE", f"cannot be made: {trouble.strerror or trouble}", name) from None
+        raise EnvironmentTrouble("unwritable", f"cannot be made: {trouble.strerror or trouble}", name) from None
     return folder

@@ -6,7 +6,8 @@ import argparse
 from pathlib import Path
 
 from demos.commands.arguments import add_scenario
-from demos.output import check_writable, say
+from demos.output import say
+from engine.core.files import check_output
 
 
 def register(subparsers) -> None:
@@ -38,7 +39,7 @@ def run(args: argparse.Namespace) -> None:
     from engine.core.files import write_atomically
 
     ending = ending_of(args.output)
-    check_writable(args.output)
+    check_output(args.output)
     fps = USUAL_FPS[ending] if args.fps is None else args.fps
     if not 1.0 <= fps <= 120.0:
         raise BadInput("usage", f"--fps {fps:g}: expected 1 to 120")

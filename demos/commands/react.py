@@ -6,7 +6,8 @@ import argparse
 from typing import Any
 
 from demos.commands.arguments import add_scenario
-from demos.output import check_writable, print_json, say
+from demos.output import print_json, say
+from engine.core.files import check_output
 
 UNSAID = ("t_s", "kind", "entity", "at", "ball", "threat")  # said already, or handles that mean nothing to people
 
@@ -29,7 +30,7 @@ def run(args: argparse.Namespace) -> None:
     from engine.core.journal_file import save_journal
 
     if args.record:
-        check_writable(args.record)
+        check_output(args.record)
     scenario, folder = open_scenario(args.scenario, args.set)
     simulation = start(scenario, folder, observe=True)
     recorder = recorder_of(simulation, folder) if args.record else None

@@ -5,7 +5,8 @@ from __future__ import annotations
 import argparse
 from typing import Any
 
-from demos.output import check_writable, print_json, say
+from demos.output import print_json, say
+from engine.core.files import check_output
 
 STILLS, FILMS = (".png",), (".mp4", ".gif")
 REPEATS = 5  # the time reported is the best of these
@@ -128,7 +129,7 @@ def _kind(output: str | None) -> str | None:
     ending = Path(output).suffix.lower()
     if ending not in STILLS + FILMS:
         raise BadInput("usage", f"-o {output}: expected a name that ends in {', '.join(STILLS + FILMS)}")
-    check_writable(output)
+    check_output(output)
     return "still" if ending in STILLS else "film"
 
 

@@ -18,7 +18,7 @@ def ending_of(path: str | Path) -> str:
     ending = Path(path).suffix.lower()
     if ending not in USUAL_FPS:
         found = f"unknown ending {ending}" if ending else "no ending"
-        raise BadInput("OUTPUT", f"{found}, expected {', '.join(USUAL_FPS)}", str(path))
+        raise BadInput("output", f"{found}, expected {', '.join(USUAL_FPS)}", str(path))
     return ending
 
 

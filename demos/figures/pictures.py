@@ -11,7 +11,7 @@ from demos.cli import guarded
 from demos.figures import draw_figure
 from demos.figures.press import Press
 from demos.filming import studio
-from engine.render.capture.files import whole_file
+from engine.core.files import whole_file
 
 FOLDER = Path(__file__).resolve().parents[2] / "behaviours" / "pictures"
 SHOWN = ("1.1", "1.2", "2.1", "3.2", "3.9", "4.1", "5.2")

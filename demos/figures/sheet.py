@@ -14,8 +14,8 @@ import numpy as np
 
 from demos.figures.stills import Still, Strip
 from engine.core.errors import BadInput
+from engine.core.files import whole_file
 from engine.render.capture import check_output
-from engine.render.capture.files import whole_file
 
 PAGE_UNITS = 1000
 UNITS_PER_INCH = 100

@@ -10,8 +10,8 @@ from pathlib import Path
 import numpy as np
 
 from engine.core.errors import BraceError
+from engine.core.files import check_output
 from engine.render.capture import find_ffmpeg, write_mp4
-from engine.render.capture.files import check_output
 
 FPS = 30.0
 WAITING_FRAMES = 45  # pictures that may wait for ffmpeg; beyond them the film skips, the window does not wait

@@ -63,7 +63,7 @@ class Journal:
         elif self.digest_at(tick) != digest:
             recorded = self.digest_at(tick)
             raise ReplayDiverged(
-                "DIVERGED", f"tick {tick} gave {digest}, recorded was {recorded}{self._changed_since()}"
+                "diverged", f"tick {tick} gave {digest}, recorded was {recorded}{self._changed_since()}"
             )
 
     def _changed_since(self) -> str:

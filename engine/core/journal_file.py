@@ -36,16 +36,16 @@ def load_journal(path: str | Path) -> Journal:
     try:
         data = Path(path).read_bytes()
     except OSError as trouble:
-        raise BadInput("JOURNAL", f"cannot read the recording: {trouble.strerror or trouble}", str(path)) from trouble
+        raise BadInput("recording", f"cannot read the recording: {trouble.strerror or trouble}", str(path)) from trouble
     if not data.startswith(MAGIC):
-        raise BadInput("JOURNAL", "no recording, expected a file that `--record` made", str(path))
+        raise BadInput("recording", "no recording, expected a file that `--record` made", str(path))
     found = int.from_bytes(data[len(MAGIC) : len(MAGIC) + VERSION_BYTES], "little")
     if found != FORMAT:
-        raise BadInput("JOURNAL", f"a recording of format {found}, expected format {FORMAT}", str(path))
+        raise BadInput("recording", f"a recording of format {found}, expected format {FORMAT}", str(path))
     try:
         return _unpack(_decompress(data[len(MAGIC) + VERSION_BYTES :]))
     except (ValueError, zlib.error) as trouble:
-        raise BadInput("JOURNAL", f"a damaged recording: {trouble}", str(path)) from trouble
+        raise BadInput("recording", f"a damaged recording: {trouble}", str(path)) from trouble
 
 
 def _decompress(data: bytes) -> bytes:

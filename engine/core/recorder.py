@@ -58,5 +58,5 @@ def replay(world: World, step: Step, apply: Apply, journal: Journal) -> Recorder
         try:
             world.restore(journal.start)
         except (ValueError, IndexError) as trouble:
-            raise BadInput("JOURNAL", f"the recording does not fit: {trouble}") from trouble
+            raise BadInput("recording", f"the recording does not fit: {trouble}") from trouble
     return Recorder(world, step, apply, journal)

@@ -100,7 +100,7 @@ def create_gl(backend: str | None = None) -> moderngl.Context:
     except (
         Exception
     ) as trouble:  # moderngl raises bare Exception for a missing library, no device, or a version too old
-        raise EnvironmentTrouble("NO_GL", f"no OpenGL 3.3 here ({trouble}); {INSTALL_HINT}") from trouble
+        raise EnvironmentTrouble("no-gl", f"no OpenGL 3.3 here ({trouble}); {INSTALL_HINT}") from trouble
     gl.gc_mode = "auto"
     return gl
 
@@ -110,5 +110,5 @@ def check_gl(gl: moderngl.Context, doing: str) -> None:
     error = gl.error
     if error != "GL_NO_ERROR":
         raise EnvironmentTrouble(
-            "GL_ERROR", f"{error} while {doing} with {gl.info['GL_RENDERER']}; update the graphics driver"
+            "gl-error", f"{error} while {doing} with {gl.info['GL_RENDERER']}; update the graphics driver"
         )

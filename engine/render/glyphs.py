@@ -21,7 +21,7 @@ class GlyphAtlas:
     def __init__(self, font_px: int):
         self.font = ImageFont.load_default(max(int(font_px), 6))
         if not isinstance(self.font, ImageFont.FreeTypeFont):
-            raise EnvironmentTrouble("NO_FONT", "Pillow was built without FreeType, so it cannot write labels")
+            raise EnvironmentTrouble("no-font", "Pillow was built without FreeType, so it cannot write labels")
         ascent, descent = self.font.getmetrics()
         self.halo_px = max(1, round(font_px / 7))
         self.line_px = ascent + descent

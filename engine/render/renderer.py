@@ -207,7 +207,7 @@ class Renderer:
                 self.targets = make_targets(self.gl, *wanted)
             except moderngl.Error as trouble:
                 raise EnvironmentTrouble(
-                    "GL_MEMORY", f"cannot make a picture of {size_px[0]} x {size_px[1]}: {trouble}"
+                    "gl-memory", f"cannot make a picture of {size_px[0]} x {size_px[1]}: {trouble}"
                 ) from trouble
         return self.targets
 

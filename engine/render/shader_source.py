@@ -24,7 +24,7 @@ def make_program(gl: moderngl.Context, name: str, **defines: int) -> moderngl.Pr
     try:
         return gl.program(vertex_shader=sources[0], fragment_shader=sources[1])
     except moderngl.Error as trouble:
-        raise EnvironmentTrouble("SHADER", _with_file_names(str(trouble), files)) from trouble
+        raise EnvironmentTrouble("shader", _with_file_names(str(trouble), files)) from trouble
 
 
 def _source(name: str, files: list[str], defines: dict[str, int]) -> str:

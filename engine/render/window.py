@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import ctypes
-import threading
+import os
+import sys
 import time
 from typing import Any
 
@@ -36,7 +37,7 @@ class Window:
     def __init__(self, size: tuple[int, int], title: str):
         self._handle = _open(size, title)
         self._waiting: list[ev.Event] = []
-        self._lost = watch_display()
+        _watch_display()
         self._last_press: tuple[float, int, float, float] = (-1.0, -1, 0.0, 0.0)
         try:
             glfw.make_context_current(self._handle)
@@ -65,16 +66,13 @@ class Window:
         return bool(glfw.window_should_close(self._handle))
 
     def poll(self) -> list[ev.Event]:
-        """Everything since the last call, oldest first. A minimised window waits a little instead of spinning.
-
-        EnvironmentTrouble where the display has gone.
-        """
+        """Everything since the last call, oldest first. A minimised window waits a little instead of spinning."""
         if self.size_px == (0, 0):
             glfw.wait_events_timeout(0.1)
         else:
             glfw.poll_events()
         if self._lost.is_set():
-            raise EnvironmentTrouble("DISPLAY_LOST", "the display has gone away, and the window with it")
+            raise EnvironmentTrouble("display-lost", "the display has gone away, and the window with it")
         events, self._waiting = self._waiting, []
         return events
 
@@ -90,9 +88,7 @@ class Window:
         glfw.set_window_title(self._handle, title)
 
     def close(self) -> None:
-        """Closes the window and lets glfw go; without a display there is nothing left to close."""
-        if self._lost.is_set():
-            return
+        """Closes the window and lets glfw go."""
         self.gl.release()
         glfw.destroy_window(self._handle)
         glfw.terminate()
@@ -150,22 +146,22 @@ class Window:
         return (x * pixels[0] / max(window[0], 1), y * pixels[1] / max(window[1], 1))
 
 
-def watch_display() -> threading.Event:
-    """Set when the X server goes away, which otherwise ends the process on the spot. Never set without X11, or with an
-    Xlib of before 2021.
+def _watch_display() -> None:
+    """Where the X server goes away the process ends in one line and the code for it: Xlib would end it anyway, and its
+    connection, and with it the GL context, can no longer be used for anything. Does nothing without X11.
     """
-    lost = threading.Event()
     try:
-        xlib: Any = ctypes.CDLL("libX11.so.6")
-        display = ctypes.cast(glfw.get_x11_display(), ctypes.c_void_p)
-        noted = ctypes.CFUNCTYPE(None, ctypes.c_void_p, ctypes.c_void_p)(lambda *_: lost.set())
-        silent = ctypes.CFUNCTYPE(ctypes.c_int, ctypes.c_void_p)(lambda _: 0)
-        xlib.XSetIOErrorExitHandler(display, noted, None)
-        xlib.XSetIOErrorHandler(silent)
-    except (OSError, AttributeError, TypeError):
-        return lost
-    _kept_for_xlib.extend((noted, silent))
-    return lost
+        ended = ctypes.CFUNCTYPE(ctypes.c_int, ctypes.c_void_p)(_end_without_display)
+        ctypes.CDLL("libX11.so.6").XSetIOErrorHandler(ended)
+    except (OSError, AttributeError):
+        return
+    _kept_for_xlib.append(ended)
+
+
+def _end_without_display(_) -> int:
+    trouble = EnvironmentTrouble("DISPLAY_LOST", "the display has gone away, and the window with it")
+    print(trouble.line(), file=sys.stderr, flush=True)
+    os._exit(trouble.exit_code)
 
 
 _kept_for_xlib: list[Any] = []  # callbacks that C may call for as long as the process lives
@@ -176,7 +172,7 @@ def _open(size: tuple[int, int], title: str):
     glfw.ERROR_REPORTING = "ignore"  # we ask and say it ourselves, in one line
     if not glfw.init():
         raise EnvironmentTrouble(
-            "NO_DISPLAY", f"no window can be opened here ({_why()}); without a display use: brace capture"
+            "no-display", f"no window can be opened here ({_why()}); without a display use: brace capture"
         )
     glfw.window_hint(glfw.CONTEXT_VERSION_MAJOR, 3)
     glfw.window_hint(glfw.CONTEXT_VERSION_MINOR, 3)
@@ -188,7 +184,7 @@ def _open(size: tuple[int, int], title: str):
     if not handle:
         why = _why()
         glfw.terminate()
-        raise EnvironmentTrouble("NO_GL", f"no window with OpenGL 3.3 ({why}); {INSTALL_HINT}")
+        raise EnvironmentTrouble("no-gl", f"no window with OpenGL 3.3 ({why}); {INSTALL_HINT}")
     glfw.set_window_size_limits(handle, 160, 120, glfw.DONT_CARE, glfw.DONT_CARE)
     return handle
 

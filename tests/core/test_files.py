@@ -10,7 +10,7 @@ from pathlib import Path
 
 import pytest
 
-from engine.core.errors import EnvironmentTrouble
+from engine.core.errors import BadInput, EnvironmentTrouble
 from engine.core.files import write_atomically
 
 
@@ -41,7 +41,7 @@ def test_a_disk_that_fills_up_leaves_the_old_file_and_nothing_else(tmp_path, mon
     path.write_bytes(b"old")
     with pytest.raises(EnvironmentTrouble) as caught:
         write_atomically(path, b"new")
-    assert caught.value.line() == f"error[WRITE] {path}: cannot write: No space left on device"
+    assert caught.value.line() == f"error[disk-full] {path}: the disk is full; nothing was kept"
     assert caught.value.exit_code == 3
     assert path.read_bytes() == b"old"
     assert list(tmp_path.iterdir()) == [path]
@@ -67,15 +67,22 @@ def test_the_system_refusing_more_bytes_leaves_nothing(tmp_path):
         [sys.executable, "-c", LIMITED, str(tmp_path / "file")], cwd=root, capture_output=True, text=True, check=False
     )
     assert ended.returncode == 3, ended.stderr
-    assert ended.stdout == f"error[WRITE] {tmp_path / 'file'}: cannot write: File too large\n"
+    assert ended.stdout == f"error[disk-full] {tmp_path / 'file'}: the file may not grow further; nothing was kept\n"
     assert list(tmp_path.iterdir()) == []
 
 
-@pytest.mark.parametrize("place", ["missing/file", "plain/file", "folder"])
+@pytest.mark.parametrize("place", ["missing/file", "plain/file"])
 def test_a_place_that_cannot_be_written_is_named(tmp_path, place):
     (tmp_path / "plain").write_bytes(b"")
-    (tmp_path / "folder").mkdir()
     before = sorted(tmp_path.rglob("*"))
-    with pytest.raises(EnvironmentTrouble, match=r"cannot write: (No such file|Not a directory|Is a directory)"):
+    with pytest.raises(EnvironmentTrouble, match=r"there is no folder .*(missing|plain) to write into") as caught:
         write_atomically(tmp_path / place, b"x")
+    assert caught.value.code == "unwritable"
     assert sorted(tmp_path.rglob("*")) == before
+
+
+def test_a_folder_is_not_overwritten_by_a_file(tmp_path):
+    (tmp_path / "folder").mkdir()
+    with pytest.raises(BadInput, match="not a plain file"):
+        write_atomically(tmp_path / "folder", b"x")
+    assert [path.name for path in tmp_path.rglob("*")] == ["folder"]

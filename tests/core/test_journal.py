@@ -148,7 +148,7 @@ def _complaint(path):
     with pytest.raises(BadInput) as caught:
         load_journal(path)
     line = caught.value.line()
-    assert line.startswith(f"error[JOURNAL] {path}: ")
+    assert line.startswith(f"error[recording] {path}: ")
     assert "\n" not in line
     assert caught.value.exit_code == 2
     return line
@@ -221,7 +221,7 @@ def test_content_of_the_wrong_kind_is_one_line(change, tmp_path):
 
 
 def test_an_unwritable_place_is_an_environment_trouble(recorder, tmp_path):
-    with pytest.raises(EnvironmentTrouble, match="No such file or directory"):
+    with pytest.raises(EnvironmentTrouble, match="there is no folder"):
         save_journal(recorder.journal, tmp_path / "nowhere" / "run")
 
 

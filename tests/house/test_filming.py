@@ -75,7 +75,7 @@ def test_the_demo_goes_on_without_real_clips(brace, tmp_path):
 def test_no_gl_is_one_line_and_leaves_nothing(brace, tmp_path):
     done = brace("capture", "sway", *SMALL, "-o", "a.gif", __EGL_VENDOR_LIBRARY_DIRS=str(tmp_path))
     assert done.returncode == 3
-    assert done.stderr.startswith("error[NO_GL]")
+    assert done.stderr.startswith("error[no-gl]")
     assert done.stderr.count("\n") == 1
     assert list(tmp_path.iterdir()) == []
 

@@ -133,7 +133,10 @@ def test_a_wrong_override_is_one_line(capsys, wrong):
     assert one_line(capsys).startswith("error[")
 
 
-@pytest.mark.parametrize("place", ["/proc/run.brace", "nowhere/run.brace", "."])
-def test_a_recording_that_cannot_be_written_is_refused_before_the_run(capsys, place):
-    assert main(["react", "sway", "--record", place]) == 3
-    assert one_line(capsys).startswith("error[")
+@pytest.mark.parametrize(
+    ("place", "exit_code", "code"),
+    [("/proc/run.brace", 3, "unwritable"), ("nowhere/run.brace", 3, "unwritable"), (".", 2, "output")],
+)
+def test_a_recording_that_cannot_be_written_is_refused_before_the_run(capsys, place, exit_code, code):
+    assert main(["react", "sway", "--record", place]) == exit_code
+    assert one_line(capsys).startswith(f"error[{code}] {place}: ")

@@ -227,7 +227,7 @@ def test_no_room_is_one_line_and_no_half_file(tmp_path, name):
         [sys.executable, "-c", FULL_DISK, str(tmp_path / name)], cwd=ROOT, capture_output=True, text=True, check=False
     )
     assert done.returncode == EXIT_ENVIRONMENT, done.stderr
-    assert done.stdout.startswith("error[DISK_FULL]")
+    assert done.stdout.startswith("error[disk-full]")
     assert done.stdout.count("\n") == 1
     assert done.stderr == ""
     assert list(tmp_path.iterdir()) == []

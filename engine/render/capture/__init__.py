@@ -4,7 +4,7 @@ Each writer takes frames as (H, W, 3) uint8 arrays, top row first, from any iter
 checks what it wrote, and only then gives it its name.
 """
 
-from engine.render.capture.files import check_output
+from engine.core.files import check_output
 from engine.render.capture.filmstrip import compose_filmstrip, write_filmstrip
 from engine.render.capture.pictures import write_gif, write_png, write_png_folder
 from engine.render.capture.video import count_frames, find_ffmpeg, write_mp4

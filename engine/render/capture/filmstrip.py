@@ -32,7 +32,7 @@ def compose_filmstrip(
     """
     pictures = list(checked_frames(pictures, "filmstrip"))
     if len(captions) != len(pictures):
-        raise BadInput("FILMSTRIP", f"{len(captions)} captions for {len(pictures)} pictures")
+        raise BadInput("filmstrip", f"{len(captions)} captions for {len(pictures)} pictures")
     columns = min(columns or len(pictures), len(pictures))
     rows = -(-len(pictures) // columns)
     height, width = pictures[0].shape[:2]

@@ -12,7 +12,7 @@ import numpy as np
 from PIL import Image
 
 from engine.core.errors import BadInput, EnvironmentTrouble
-from engine.render.capture.files import check_output, disk_trouble, whole_file
+from engine.core.files import check_output, disk_trouble, whole_file
 from engine.render.capture.video import checked_frames
 
 MANIFEST = "frames.json"
@@ -37,7 +37,7 @@ def write_gif(path, frames: Iterable[np.ndarray], fps: float, progress: Callable
         delays_ms = gif_delays_ms(1 + len(rest), fps)
         first.save(part, format="GIF", save_all=True, append_images=rest, duration=delays_ms, loop=0, disposal=1)
         if _gif_length_ms(part) != sum(delays_ms):
-            raise EnvironmentTrouble("BAD_GIF", "the file does not hold what was put in; nothing was kept", str(path))
+            raise EnvironmentTrouble("bad-gif", "the file does not hold what was put in; nothing was kept", str(path))
     return 1 + len(rest)
 
 
@@ -76,7 +76,7 @@ def checked_measures(frames: Iterable[np.ndarray], where: str) -> Iterator[np.nd
     """Frames of one number a pixel, (H, W) uint8 or uint16; BadInput for anything else."""
     for number, frame in enumerate(frames):
         if frame.dtype not in (np.uint8, np.uint16) or frame.ndim != 2 or frame.size == 0:
-            raise BadInput("FRAME", f"frame {number} is {frame.shape} {frame.dtype}, expected (height, width)", where)
+            raise BadInput("frame", f"frame {number} is {frame.shape} {frame.dtype}, expected (height, width)", where)
         yield frame
 
 
@@ -84,7 +84,7 @@ def check_folder_output(folder) -> Path:
     """The folder's path, if a capture may take its place."""
     target = Path(os.path.abspath(folder))
     if target.is_symlink() or (target.exists() and not target.is_dir()):
-        raise BadInput("OUTPUT", "this is not a folder, so it is not overwritten", str(folder))
+        raise BadInput("output", "this is not a folder, so it is not overwritten", str(folder))
     if not target.exists():
         check_output(target)
         return target
@@ -93,7 +93,7 @@ def check_folder_output(folder) -> Path:
     foreign = sorted(entry.name for entry in target.iterdir() if entry.name not in ours)
     if foreign:
         raise BadInput(
-            "OUTPUT", f"the folder holds files that are not ours ({foreign[0]}); name an empty or new one", str(folder)
+            "output", f"the folder holds files that are not ours ({foreign[0]}); name an empty or new one", str(folder)
         )
     return target
 

@@ -15,7 +15,7 @@ from pathlib import Path
 import numpy as np
 
 from engine.core.errors import BadInput, EnvironmentTrouble
-from engine.render.capture.files import whole_file
+from engine.core.files import whole_file
 
 # H.264 plays everywhere; some distributions ship ffmpeg without x264
 ENCODERS = {
@@ -38,7 +38,7 @@ def write_mp4(path, frames: Iterable[np.ndarray], fps: float, progress: Callable
         found = count_frames(part)
         if found != count:
             raise EnvironmentTrouble(
-                "BAD_VIDEO", f"{count} frames were written but {found} can be read back; nothing was kept", str(path)
+                "bad-video", f"{count} frames were written but {found} can be read back; nothing was kept", str(path)
             )
     return count
 
@@ -54,7 +54,7 @@ def find_ffmpeg() -> str:
         return imageio_ffmpeg.get_ffmpeg_exe()
     except (ImportError, RuntimeError) as trouble:
         hint = "no ffmpeg here: apt-get install ffmpeg, or capture to a folder or a .gif"
-        raise EnvironmentTrouble("NO_FFMPEG", hint) from trouble
+        raise EnvironmentTrouble("no-ffmpeg", hint) from trouble
 
 
 def count_frames(path) -> int:
@@ -81,16 +81,16 @@ def checked_frames(frames: Iterable[np.ndarray], where: str) -> Iterator[np.ndar
         shape = shape or frame.shape
         if frame.dtype != np.uint8 or frame.ndim != 3 or frame.shape[2] != 3 or frame.size == 0:
             found = f"{frame.shape} {frame.dtype}"
-            raise BadInput("FRAME", f"frame {number} is {found}, expected (height, width, 3) uint8", where)
+            raise BadInput("frame", f"frame {number} is {found}, expected (height, width, 3) uint8", where)
         if frame.shape != shape:
             raise BadInput(
-                "FRAME",
+                "frame",
                 f"frame {number} is {frame.shape[1]} x {frame.shape[0]}, the first {shape[1]} x {shape[0]}",
                 where,
             )
         yield frame
     if shape is None:
-        raise BadInput("NO_FRAMES", "there is nothing to capture: not a single frame", where)
+        raise BadInput("no-frames", "there is nothing to capture: not a single frame", where)
 
 
 def _encode(ffmpeg: str, part: Path, frames, fps: float, where: str, progress) -> int:
@@ -160,13 +160,13 @@ def best_encoder(ffmpeg: str) -> str:
     for encoder in ENCODERS:
         if encoder in names:
             return encoder
-    raise EnvironmentTrouble("NO_FFMPEG", f"{ffmpeg} has none of the encoders {', '.join(ENCODERS)}")
+    raise EnvironmentTrouble("no-ffmpeg", f"{ffmpeg} has none of the encoders {', '.join(ENCODERS)}")
 
 
 def _trouble(code: int, said: str, where: str) -> EnvironmentTrouble:
     """ffmpeg's last words, in one line."""
     lines = [line for line in said.splitlines() if line.strip()]
     if "No space left" in said or "File too large" in said or code == -signal.SIGXFSZ:
-        return EnvironmentTrouble("DISK_FULL", "the disk is full; nothing was kept", where)
+        return EnvironmentTrouble("disk-full", "the disk is full; nothing was kept", where)
     last = lines[-1] if lines else f"it ended with code {code}"
-    return EnvironmentTrouble("FFMPEG", f"ffmpeg failed: {last}", where)
+    return EnvironmentTrouble("ffmpeg", f"ffmpeg failed: {last}", where)

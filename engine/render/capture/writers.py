@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 
 from engine.core.errors import BadInput
-from engine.render.capture.files import check_output
+from engine.core.files import check_output
 from engine.render.capture.pictures import check_folder_output, write_gif, write_png_folder
 from engine.render.capture.video import find_ffmpeg, write_mp4
 
@@ -20,7 +20,7 @@ def capture_kind(path) -> str:
     kind = "folder" if Path(path).is_dir() else KINDS.get(Path(path).suffix.lower())
     if kind is None:
         raise BadInput(
-            "OUTPUT", f"unknown ending {Path(path).suffix}, expected .mp4, .gif, .png or a folder", str(path)
+            "output", f"unknown ending {Path(path).suffix}, expected .mp4, .gif, .png or a folder", str(path)
         )
     if kind == "folder":
         check_folder_output(path)
@@ -35,7 +35,7 @@ def write_film(path, frames: Iterable[np.ndarray], fps: float, progress: Callabl
     """An MP4, a GIF or a folder of PNGs, by the path's ending; returns the number of frames."""
     kind = capture_kind(path)
     if kind == "png":
-        raise BadInput("OUTPUT", "a film does not fit into one .png: use a filmstrip", str(path))
+        raise BadInput("output", "a film does not fit into one .png: use a filmstrip", str(path))
     if kind == "mp4":
         return write_mp4(path, frames, fps, progress)
     if kind == "gif":
