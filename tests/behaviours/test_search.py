@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 
 from behaviours import motion_index
-from behaviours.components import SAMPLES, Recover
+from behaviours.components import SAMPLES, Phase, Recover
 from behaviours.motion_index import index_clips
 from behaviours.scenario import check_scenario
 from behaviours.search import Window, best_window
@@ -22,11 +22,12 @@ from engine.body.skeleton import PARENT
 from engine.clips.playback import planted_at
 from engine.clips.retarget import retarget_clip
 from engine.core.errors import BadInput, EnvironmentTrouble
-from tests.behaviours.knocked import HEAVY, VOLLEYBALL, events, played, struck
+from tests.behaviours.knocked import VOLLEYBALL, events, played, struck
 
 ROOT = Path(__file__).resolve().parents[2]
 SEARCH = Settings().search
 AHEAD_S = Settings().timing.sustained_ahead_s
+HARD = {**VOLLEYBALL, "kind": "custom", "mass_kg": 2.0}  # seven volleyballs; nobody falls
 
 
 @pytest.fixture(scope="module")
@@ -167,6 +168,23 @@ def test_a_new_motion_is_entered_with_its_feet_held(gone_on):
     assert report["metrics"]["foot_slide_max_m"] < 0.002
 
 
+@pytest.mark.parametrize("blow", [VOLLEYBALL, HARD], ids=["mild", "hard"])
+@pytest.mark.parametrize("name", ["walk", "run", "dance", "stand"])
+def test_from_any_motion_another_is_entered_without_a_step_out_of_place(name, blow, library_clip):
+    library_clip(name)
+    run = played(struck(blow, clip=name, start_s=0.4, library=["walk", "run", "dance", "kneel", "sway"]))
+    metrics, (track,) = run.report()["metrics"], run.observer.tracks.values()
+    chosen = [search for search in events(run, "searched") if search["chosen"] == "new"]
+    assert chosen
+    assert metrics["recovered_to"] == chosen[-1]["clip"] != name
+    assert metrics["foot_slide_max_m"] < 0.002
+    assert metrics["seam_position_jump_max_m"] < 0.0005
+    # the way the body goes on is the way that it was going: the pelvis neither stops dead nor darts off
+    pelvis_m = np.array(track.root_m)
+    again = 1 + max(k for k, phase in enumerate(track.phase) if phase == Phase.RESPOND)
+    assert np.linalg.norm(np.diff(pelvis_m[again:], 2, axis=0), axis=1).max() * 120**2 < 100.0
+
+
 def test_the_character_keeps_its_own_bones(gone_on):
     world, (track,) = gone_on.world, gone_on.observer.tracks.values()
     played_clips = {world.assets.clips[number].name for number in track.clip}
@@ -192,8 +210,9 @@ def test_auto_goes_by_how_much_the_blow_has_moved_the_body(library_clip):
     eager = {"search": {"auto_over_m": 0.5 * search["reaction_m"]}}
     moved = played(struck(VOLLEYBALL, clip="walk", recover="auto", library=["dance", "sway"], settings=eager))
     assert events(moved, "searched")[0]["chosen"] == "new"
-    hard = played(struck(HEAVY, clip="walk", recover="auto", library=["dance", "sway"], duration_s=1.6))
+    hard = played(struck(HARD, clip="run", recover="auto", library=["dance", "sway"], duration_s=1.6))
     assert max(search["reaction_m"] for search in events(hard, "searched")) > SEARCH.auto_over_m
+    assert events(hard, "searched")[-1]["chosen"] == "new"
 
 
 def test_without_another_clip_the_same_is_taken_up():
