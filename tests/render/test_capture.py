@@ -15,9 +15,10 @@ import numpy as np
 import pytest
 from PIL import Image
 
+from engine.core import files
 from engine.core.errors import EXIT_BAD_INPUT, EXIT_ENVIRONMENT, BadInput, EnvironmentTrouble
 from engine.render import capture
-from engine.render.capture import files, video
+from engine.render.capture import video
 from engine.render.capture.filmstrip import PAPER, even_times
 from engine.render.capture.pictures import gif_delays_ms
 
