@@ -6,11 +6,10 @@ from __future__ import annotations
 
 import math
 
-import numpy as np
 from numba import njit
 
-from engine.body import limb_ik, limits
-from engine.body.skeleton import ELBOWS, PARENT, SHOULDERS, WRISTS
+from engine.body import limb_ik, limits, two_bones
+from engine.body.skeleton import CLAVICLES, ELBOWS, SHOULDERS, WRISTS
 from engine.maths import quaternion, vector
 
 # slots of an arm's parameters, radians; zeros are the neutral arm
@@ -25,10 +24,6 @@ NEUTRAL_SWIVEL = math.radians(20.0)
 HANG = 0.85
 SOFT_LEAN = 0.1  # radians of sideways lean over which the flank takes an arm up ...
 MOST_LEAN = 0.45  # ... and about how far it carries it; from there on the arm drops past it
-# how the nearest allowed swivel is looked for
-SWIVEL_STEPS, SWIVEL_STEP = 20, math.radians(6.0)
-SECTIONS, GOLDEN = 18, 0.5 * (math.sqrt(5.0) - 1.0)
-ROUNDING_RAD = 1e-6  # a straight elbow's angle is known no better
 
 
 @njit(cache=True)
@@ -90,96 +85,32 @@ def reach(body, rotations, positions, orientations, side, target_m, swivel_rad):
     """Puts a wrist on a world target, elbow at a swivel, in place (arrays of one pose). Returns how far it misses,
     metres.
     """
-    return limb_ik.apply_arm(body, rotations, positions, orientations, side, target_m, swivel_rad, limb_ik.CARRIED, 0.0)
+    root = vector.at(positions, SHOULDERS[side])
+    along = vector.unit(vector.subtract((target_m[0], target_m[1], target_m[2]), root), (0.0, 0.0, -1.0))
+    swivel = swivel_rad + _zero_from_carried(orientations, side, along)
+    return limb_ik.apply_arm(body, rotations, positions, orientations, side, target_m, swivel, limb_ik.CARRIED, 0.0)
 
 
 @njit(cache=True)
-def reach_within_limits(body, rotations, positions, orientations, side, target_m, swivel_rad):
-    """`reach` at the allowed swivel that is nearest to the wanted one. Returns the miss, the swivel taken, and the
-    strain.
+def elbow_zero(orientations, side, along):
+    """Where the elbow points at swivel 0 for an arm along a unit vector; world.
 
-    Where no swivel is allowed, the one that strains least is taken, the arm is held at its limits and the wrist goes
-    no farther than that; the strain is what the limits are short of, radians, else 0.
+    Down for an arm straight ahead, carried to other arms by the least turn. It turns over only for an arm straight
+    back, which no shoulder allows. (`limb_ik.CARRIED` does behind and above the shoulder, which is where a target comes
+    to be when somebody leans and turns away from it.)
     """
-    reach(body, rotations, positions, orientations, side, target_m, swivel_rad)
-    least, easiest = strain_rad(body, rotations, side), swivel_rad
-    if least <= ROUNDING_RAD:
-        return _hold_at_limits(body, rotations, positions, orientations, side, target_m), swivel_rad, 0.0
-    for k in range(1, SWIVEL_STEPS + 1):
-        for way in (1.0, -1.0):
-            allowed = swivel_rad + way * k * SWIVEL_STEP
-            reach(body, rotations, positions, orientations, side, target_m, allowed)
-            strain = strain_rad(body, rotations, side)
-            if strain <= ROUNDING_RAD:
-                forbidden = allowed - way * SWIVEL_STEP
-                allowed = _edge_of_allowed(body, rotations, positions, orientations, side, target_m, forbidden, allowed)
-                return _hold_at_limits(body, rotations, positions, orientations, side, target_m), allowed, 0.0
-            if strain < least:
-                least, easiest = strain, allowed
-    easiest = _easiest_near(body, rotations, positions, orientations, side, target_m, easiest)
-    least = strain_rad(body, rotations, side)
-    if least <= ROUNDING_RAD:
-        least = 0.0
-    return _hold_at_limits(body, rotations, positions, orientations, side, target_m), easiest, least
+    clavicle = quaternion.at(orientations, CLAVICLES[side])
+    ahead, down = quaternion.rotate(clavicle, (1.0, 0.0, 0.0)), quaternion.rotate(clavicle, (0.0, 0.0, -1.0))
+    return two_bones.carried_zero(ahead, down, along)
 
 
 @njit(cache=True)
-def _easiest_near(body, rotations, positions, orientations, side, target_m, swivel_rad):
-    """The swivel of the least strain within a step of one; leaves the arm there. Golden sections."""
-    low, high = swivel_rad - SWIVEL_STEP, swivel_rad + SWIVEL_STEP
-    strains = np.empty(2)
-    for _ in range(SECTIONS):
-        tries = (high - GOLDEN * (high - low), low + GOLDEN * (high - low))
-        for k in range(2):
-            reach(body, rotations, positions, orientations, side, target_m, tries[k])
-            strains[k] = strain_rad(body, rotations, side)
-        if strains[0] <= strains[1]:
-            high = tries[1]
-        else:
-            low = tries[0]
-    middle = 0.5 * (low + high)
-    reach(body, rotations, positions, orientations, side, target_m, middle)
-    return middle
-
-
-@njit(cache=True)
-def _hold_at_limits(body, rotations, positions, orientations, side, target_m):
-    """Draws shoulder and elbow back to their limits, in place; returns how far the wrist then is from the target."""
-    for joint in (SHOULDERS[side], ELBOWS[side]):
-        held = limits.clamp_rotation(body.limit_low_rad[joint], body.limit_high_rad[joint], rotations[joint])
-        _put(rotations, joint, held)
-        limb_ik.place_children(body.offset_m, rotations, positions, orientations, PARENT[joint], joint)
-    limb_ik.place_children(body.offset_m, rotations, positions, orientations, ELBOWS[side], WRISTS[side])
-    return vector.distance(positions[WRISTS[side]], target_m)
-
-
-@njit(cache=True)
-def _edge_of_allowed(body, rotations, positions, orientations, side, target_m, forbidden, allowed):
-    """Halves the way between a forbidden and an allowed swivel until they are one, and takes the allowed one."""
-    for _ in range(20):
-        middle = 0.5 * (forbidden + allowed)
-        reach(body, rotations, positions, orientations, side, target_m, middle)
-        if strain_rad(body, rotations, side) <= ROUNDING_RAD:
-            allowed = middle
-        else:
-            forbidden = middle
-    reach(body, rotations, positions, orientations, side, target_m, allowed)
-    return allowed
-
-
-@njit(cache=True)
-def strain_rad(body, rotations, side):
-    """How far shoulder and elbow are beyond their limits: the root of the sum of the squares of what each angle is
-    over.
-    """
-    total = 0.0
-    for joint in (SHOULDERS[side], ELBOWS[side]):
-        angle = limits.components(rotations[joint])
-        for axis in range(3):
-            low, high = body.limit_low_rad[joint, axis], body.limit_high_rad[joint, axis]
-            over = max(low - angle[axis], angle[axis] - high, 0.0)
-            total += over * over
-    return math.sqrt(total)
+def _zero_from_carried(orientations, side, along):
+    """The swivel, counted from `limb_ik.CARRIED`, at which the elbow points along `elbow_zero`."""
+    carried = limb_ik.arm_zero(orientations, side, limb_ik.CARRIED, along)
+    zero = elbow_zero(orientations, side, along)
+    turn = math.atan2(vector.inner(along, vector.cross(carried, zero)), vector.inner(carried, zero))
+    return (1.0 - 2.0 * side) * turn
 
 
 @njit(cache=True)

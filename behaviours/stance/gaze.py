@@ -15,7 +15,7 @@ from engine.maths import quaternion, vector
 NECK_SHARE = 0.7
 # the eyes, as shares of the height of the crown over the head's joint: ahead and up
 EYES = (0.6, 0.0, 0.45)
-STEEP = 0.35  # a direction whose level part is shorter than this loses its yaw bit by bit ...
+STEEP = 0.7  # a direction whose level part is shorter than this loses its yaw bit by bit ...
 BEHIND = math.radians(50.0)  # ... and so does one that is as near as this to straight behind
 
 

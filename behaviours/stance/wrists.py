@@ -8,7 +8,7 @@ import math
 
 from numba import njit
 
-from behaviours.stance import arms, balance
+from behaviours.stance import arms, balance, elbows
 from behaviours.stance.assembly import assemble
 from engine.body import kinematics
 from engine.body.skeleton import SHOULDERS
@@ -19,6 +19,8 @@ MISS, SWIVEL, STRAIN = range(3)
 
 # an elbow is not stretched beyond this share of the arm's length as long as the torso can come nearer
 COMFORTABLE = 0.97
+# nor is it folded on a target that is nearer to the shoulder than this
+NEAREST = 0.25
 STRAIN_M = 0.3  # metres of lack that a radian of strain counts
 FINISHING, FINISHED_M = 12, 1e-6
 
@@ -27,6 +29,12 @@ FINISHING, FINISHED_M = 12, 1e-6
 def reach_distance_m(plan, positions, side):
     """From a shoulder to its wrist's target."""
     return vector.distance(positions[SHOULDERS[side]], plan.wrist_m[side])
+
+
+@njit(cache=True)
+def distance_lack_m(away_m, arm_m):
+    """How much too far or too near a target is for an arm of that length; negative where there is room to spare."""
+    return max(away_m - COMFORTABLE * arm_m, NEAREST * arm_m - away_m)
 
 
 @njit(cache=True)
@@ -53,25 +61,35 @@ def finish(body, plan, unknowns, search, figure, wrists):
 def reach_targets(body, plan, figure, wrists, stay):
     """Puts the wrists that have one on their targets, in place, and writes what came of it to `wrists` (3, 2)."""
     for side in range(2):
-        wanted = wrists[SWIVEL, side] if stay else plan.arm[side, arms.SWIVEL] + arms.NEUTRAL_SWIVEL
+        wanted = plan.arm[side, arms.SWIVEL] + arms.NEUTRAL_SWIVEL
+        taken, strained = wrists[SWIVEL, side], wrists[STRAIN, side] > 0.0
         wrists[MISS, side], wrists[SWIVEL, side], wrists[STRAIN, side] = 0.0, wanted, 0.0
-        if plan.reaching[side]:
-            wrists[MISS, side], wrists[SWIVEL, side], wrists[STRAIN, side] = arms.reach_within_limits(
-                body, figure.rotations, figure.positions, figure.orientations, side, plan.wrist_m[side], wanted
+        if not plan.reaching[side]:
+            continue
+        if stay:
+            miss_m, strain = elbows.reach_strained(
+                body, figure.rotations, figure.positions, figure.orientations, side, plan.wrist_m[side], taken
             )
+            if strain == 0.0 or strained:
+                wrists[MISS, side], wrists[SWIVEL, side], wrists[STRAIN, side] = miss_m, taken, strain
+                continue
+        start = taken if stay else wanted
+        wrists[MISS, side], wrists[SWIVEL, side], wrists[STRAIN, side] = elbows.reach_within_limits(
+            body, figure.rotations, figure.positions, figure.orientations, side, plan.wrist_m[side], wanted, start
+        )
 
 
 @njit(cache=True)
 def greatest_lack_m(body, plan, figure, wrists):
-    """What a finished figure lacks: how much too far the worse shoulder is and how far its arm is beyond its limits,
-    as metres.
+    """What a finished figure lacks: how much too far or too near the worse shoulder is, and how far its arm is beyond
+    its limits, as metres.
     """
     worst = 0.0
     for side in range(2):
         if plan.reaching[side]:
             away = reach_distance_m(plan, figure.positions, side)
-            too_far = max(away - COMFORTABLE * arms.arm_length_m(body, side), 0.0)
-            worst = max(worst, too_far + STRAIN_M * wrists[STRAIN, side])
+            astray = max(distance_lack_m(away, arms.arm_length_m(body, side)), 0.0)
+            worst = max(worst, astray + STRAIN_M * wrists[STRAIN, side])
     return worst
 
 
@@ -92,7 +110,7 @@ def lacks_at(body, plan, unknowns, search, figure, wrists, lacks):
         lacks[side] = -1.0
         if plan.reaching[side]:
             away = vector.distance(balance.carried(way, figure.positions[SHOULDERS[side]]), plan.wrist_m[side])
-            lacks[side] = away - COMFORTABLE * arms.arm_length_m(body, side)
-            strain = arms.strain_rad(body, figure.rotations, side)
-            if strain > arms.ROUNDING_RAD:
+            lacks[side] = distance_lack_m(away, arms.arm_length_m(body, side))
+            strain = elbows.strain_rad(body, figure.rotations, side)
+            if strain > elbows.ROUNDING_RAD:
                 lacks[side] = max(lacks[side], 0.0) + STRAIN_M * strain

@@ -14,18 +14,20 @@ from typing import NamedTuple
 import numpy as np
 from numba import njit
 
-from behaviours.stance import brent, penalty
+from behaviours import minimise
+from behaviours.stance import penalty
 from behaviours.stance.assembly import Figure, Plan
 from behaviours.stance.balance import BalanceSearch
 from behaviours.stance.wrists import finish, lacks_at
 from engine.body.skeleton import Body
 
 LACK_WEIGHT = 1e4  # what a metre of lack counts against a wish moved to its far point
-ROUNDS, MOST_STEPS = 3, 6  # of Gauss-Newton steps, between which each unknown is searched along once
+MOST_STEPS = 6  # of Gauss-Newton
 SETTLED = 1e-3  # a step of which no unknown moves more than this share of its wish's far point is the last
 DIFFERENCE = 0.01  # step of the differences, as such a share
 SHORTEST_SHARE, LONGEST_SHARE, MOST_SHORTER = 0.05, 0.7, 3
-LINE_STEP, LINE_TOLERANCE = 0.1, 0.01  # of the line searches, as such shares
+# of the last search: step of its differences, as such a share; least relative gain of an iteration; most iterations
+BOTTOM_OFFSET, BOTTOM_TOLERANCE, BOTTOM_ITERATIONS = 1e-3, 1e-6, 40
 
 
 class Yielding(NamedTuple):
@@ -48,19 +50,14 @@ def give_way(body, plan, wishes, unknowns, bounds, search, figure, wrists):
     """
     stiffness = wishes.weight / wishes.wanted[:, penalty.HIGH + 2] ** 2
     task = Yielding(body, plan, bounds, unknowns.copy(), stiffness, search, figure, wrists)
-    steps = evaluations = 0
-    for k in range(ROUNDS):
-        more_steps, more, settled = _newton(task, unknowns)
-        steps, evaluations = steps + more_steps, evaluations + more
-        if settled or k == ROUNDS - 1:
-            break
-        evaluations += _search_lines(task, unknowns)
+    steps, evaluations = _newton(task, unknowns)
+    evaluations += _to_the_bottom(task, unknowns)
     return steps, evaluations, finish(body, plan, unknowns, search, figure, wrists)
 
 
 @njit(cache=True)
 def _newton(task, unknowns):
-    """Gauss-Newton steps, each shortened until it gains. Returns (steps, evaluations, whether they have settled)."""
+    """Gauss-Newton steps, each shortened until it gains. Returns (steps, evaluations)."""
     before, step = unknowns.copy(), np.empty(len(unknowns))
     lacks, new_lacks, slopes = np.empty(2), np.empty(2), np.zeros((2, len(unknowns)))
     value, new_value, evaluations = _weigh(task, unknowns, lacks, True), 0.0, 1
@@ -79,30 +76,27 @@ def _newton(task, unknowns):
             share = min(max(least, SHORTEST_SHARE * share), LONGEST_SHARE * share)
         if new_value >= value:
             unknowns[:] = before
-            return steps, evaluations, np.max(np.abs(step) * np.sqrt(task.stiffness)) < SETTLED
+            return steps, evaluations
         value = new_value
         lacks[:] = new_lacks
         if np.max(np.abs(share * step) * np.sqrt(task.stiffness)) < SETTLED:
-            return steps, evaluations, True
-    return MOST_STEPS, evaluations, False
+            return steps, evaluations
+    return MOST_STEPS, evaluations
 
 
 @njit(cache=True)
-def _search_lines(task, unknowns):
-    """Brent's search along each unknown in turn, in place: it finds its way where slopes lead astray. Returns the
-    evaluations.
+def _to_the_bottom(task, unknowns):
+    """Goes on to the very minimum, in place, by quasi-Newton: where two reaches fight each other, Gauss-Newton does not
+    get there, and where it stops would depend on rounding. Returns the evaluations.
     """
-    lacks, line, evaluations = np.empty(2), brent.new_line(), 1
-    value = _weigh(task, unknowns, lacks, True)
-    for u in range(len(unknowns)):
-        far = 1.0 / np.sqrt(task.stiffness[u])
-        brent.begin(line, unknowns[u], value, LINE_STEP * far, task.bounds[u, 0], task.bounds[u, 1])
-        while not brent.finished(line):
-            unknowns[u] = line.numbers[brent.TRIAL]
-            brent.tell(line, _weigh(task, unknowns, lacks, False), LINE_TOLERANCE * far)
-        unknowns[u], value = brent.best(line)
-        evaluations += line.counts[1]
-    return evaluations
+    far, lacks = 1.0 / np.sqrt(task.stiffness), np.empty(2)
+    search = minimise.new_search(unknowns / far)
+    while not minimise.finished(search):
+        unknowns[:] = np.minimum(np.maximum(search.trial * far, task.bounds[:, 0]), task.bounds[:, 1])
+        value = _weigh(task, unknowns, lacks, True)
+        minimise.tell(search, value, BOTTOM_OFFSET, BOTTOM_TOLERANCE, BOTTOM_ITERATIONS, 0)
+    unknowns[:] = np.minimum(np.maximum(search.point * far, task.bounds[:, 0]), task.bounds[:, 1])
+    return search.counts[minimise.EVALUATIONS]
 
 
 @njit(cache=True)

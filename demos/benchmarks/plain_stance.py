@@ -150,8 +150,7 @@ def reaching(body, arm, side, shoulder_m, target_m, clavicle):
     a, b = -body.offset_m[ELBOWS[side], 2], -body.offset_m[WRISTS[side], 2]
     to = target_m - shoulder_m
     length, n = min(np.linalg.norm(to), a + b), unit(to)
-    half = np.sqrt(0.5)
-    resting, zero = clavicle.apply([half, 0, -half]), clavicle.apply([-half, 0, -half])
+    resting, zero = clavicle.apply([1.0, 0.0, 0.0]), clavicle.apply([0.0, 0.0, -1.0])
     swivel = (1 - 2 * side) * (arm[arms.SWIVEL] + arms.NEUTRAL_SWIVEL)
     out = turn(n, swivel).apply(least(resting, n).apply(zero))  # where the elbow points
     at_shoulder = np.arccos(np.clip((a * a + length**2 - b * b) / (2 * a * length), -1, 1))

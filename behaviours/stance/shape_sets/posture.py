@@ -54,10 +54,10 @@ def _collapsed(a: float) -> Shape:
 def _erect(a: float) -> Shape:
     return shape(
         sagittal_class=SMALL_S,
-        sagittal=2.2 * a,
+        sagittal=1.5 * a,
         collar_y_rad=0.4 * a,
         collar_z_rad=0.08 * curves.late(a, 0.3),
-        pelvis_x_rad=0.1 * a,
+        pelvis_x_rad=0.06 * a,
         balance_z=0.12 * a,
         elbow_left_rad=-0.2 * a,
         elbow_right_rad=-0.2 * a,

@@ -42,7 +42,7 @@ def plain(intensity: float, around: Around) -> Shape:
 
 def with_beauty_line(intensity: float, around: Around) -> Shape:
     base = beauty_line.shape_of(intensity, around)
-    return changed(base, collar_y=OPPOSED, solve_abdomen=True, gaze=0.7 * min(abs(intensity), 1.0))
+    return changed(base, collar_y=OPPOSED, solve_abdomen=True, gaze=0.6 * min(abs(intensity), 1.0))
 
 
 def eager(intensity: float, around: Around) -> Shape:

@@ -40,6 +40,7 @@ def mild(intensity: float, around: Around) -> Shape:
 def strong(intensity: float, around: Around) -> Shape:
     a, ahead, side = intensity, around.ahead, around.side
     away = _sideways(around)
+    turn = 0.7 if any(around.reaching) else 1.0  # a hand that has to be somewhere holds the body back
     over = 1.0 - around.low  # from something on the ground it draws itself up instead of curling over it
     knees: dict[str, Any] = {f"knee_{'left' if side > 0.0 else 'right'}_rad": 0.35 * over * abs(a)}
     return shape(
@@ -51,13 +52,13 @@ def strong(intensity: float, around: Around) -> Shape:
         coronal=-2.4 * away * a,  # the upper part of the S, chest to head, bends away
         sagittal=(0.2 + 1.0 * over) * a,
         abdomen_x_rad=-(0.22 + 0.15 * around.low) * ahead * a,
-        transverse_rad=-0.6 * side * a,
+        transverse_rad=-0.6 * turn * side * a,
         collar_y_rad=-0.28 * side * a,
         collar_z_rad=0.3 * a,
         balance_x=-0.8 * away * a,
         balance_z=-0.65 * ahead * a,
         pelvis_x_rad=-0.12 * ahead * a,
-        pelvis_y_rad=-0.42 * side * a,
+        pelvis_y_rad=-0.42 * turn * side * a,
         gaze=0.75 * min(abs(a), 1.0),
         **_arms(around, a),
         **knees,

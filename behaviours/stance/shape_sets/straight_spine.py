@@ -11,6 +11,6 @@ def shape_of(intensity: float, around: Around) -> Shape:
     forward, back = curves.soft_positive(intensity), curves.soft_positive(-intensity)
     rest = curves.soft_positive(0.0)  # the rounded corners, taken off so that 0 stays neutral
     return shape(
-        abdomen_x_rad=0.75 * (forward - rest) - 0.4 * (back - rest),
-        pelvis_x_rad=0.3 * (forward - rest) - 0.1 * (back - rest),
+        abdomen_x_rad=0.65 * (forward - rest) - 0.4 * (back - rest),
+        pelvis_x_rad=0.2 * (forward - rest) - 0.1 * (back - rest),
     )
