@@ -84,7 +84,7 @@ def step(
             _apply(model, push, push.since_s + k * h, h)
         qpos_before = d.qpos.copy()
         mujoco.mj_step(m, d)
-        stops.hold(model, qpos_before, target_rotations, h)
+        stops.hold(model, qpos_before, target_rotations, max(0.0, 1.0 - strength), h)
         momentum = _balance(model, momentum, h)
         if trace is not None:
             trace[k] = tracking.part_velocities(PARENT, body.offset_m, body.part_com_m, d.qpos, d.qvel)

@@ -32,6 +32,7 @@ MOST_ROWS = 48  # more stops than this at once are those of a body that is nowhe
 NEAR_MPS = 0.05  # a bound that is met by less than this may be broken by the impulses of others: it is kept in view
 NEAR_RAD = 0.7  # the same for limits of one joint: nothing turns farther than this in EASE_S
 SWEEPS = 40
+CREEP_RADPS, CREEP_MPS = 0.3, 0.02
 FARTHEST_M = 0.25  # nothing within a body closes faster than this in EASE_S
 LEAST_APART_M = 1e-6  # of two axes: nearer than this, there is no saying which way is out
 TOUCHING_M, TOUCHING_RAD = 0.01, 0.05  # what a blow closes at once: these count as touching
@@ -82,16 +83,18 @@ def keep_own(model, target: np.ndarray) -> None:
     np.negative(model.mujoco_model.pair_margin, out=model.mujoco_model.pair_margin)
 
 
-def hold(model, qpos_before: np.ndarray, target: np.ndarray, h: float) -> None:
+def hold(model, qpos_before: np.ndarray, target: np.ndarray, limp: float, h: float) -> None:
     """Corrects the step of h seconds that MuJoCo's data has just taken from `qpos_before`, velocities and places.
 
-    target (J, 4): a limit that it oversteps is moved out to it. Uses the mass matrix of that step, servos included.
+    target (J, 4): a limit that it oversteps is moved out to it. limp, 0 to 1: how far slow motion is left to ligaments
+    and soft contacts, which know of the floor: else a limp body that lies on its hands would never come to rest. Uses
+    the mass matrix of that step, servos included.
     """
     m, d, body = model.mujoco_model, model.data, model.body
     rows, least = np.zeros((MOST_ROWS, m.nv)), np.empty(MOST_ROWS)
     count = find(
         PARENT, body.offset_m, body.limit_low_rad, body.limit_high_rad, target, model.capsules, model.pairs,
-        qpos_before, d.qvel, max(EASE_S, h), FARTHEST_M, NEAR_RAD, rows, least,
+        qpos_before, d.qvel, max(EASE_S, h), limp, FARTHEST_M, NEAR_RAD, rows, least,
     )  # fmt: skip
     if count == 0:
         return
@@ -112,7 +115,7 @@ def braces(model, qpos: np.ndarray, towards: np.ndarray) -> tuple[np.ndarray, np
     rows, least = np.zeros((MOST_ROWS, m.nv)), np.empty(MOST_ROWS)
     count = find(
         PARENT, body.offset_m, body.limit_low_rad, body.limit_high_rad, qpos[3:].reshape(JOINT_COUNT, 4),
-        model.capsules, model.pairs, qpos, towards, np.inf, TOUCHING_M, TOUCHING_RAD, rows, least,
+        model.capsules, model.pairs, qpos, towards, np.inf, 0.0, TOUCHING_M, TOUCHING_RAD, rows, least,
     )  # fmt: skip
     rows = rows[:count]
     answers = np.empty_like(rows)
@@ -170,7 +173,21 @@ def depths_into(parent, offset_m, rotations, capsules, pairs, out):
 
 @njit(cache=True)
 def find(
-    parent, offset_m, low, high, target, capsules, pairs, qpos, qvel, ease_s, farthest_m, farthest_rad, rows, least
+    parent,
+    offset_m,
+    low,
+    high,
+    target,
+    capsules,
+    pairs,
+    qpos,
+    qvel,
+    ease_s,
+    limp,
+    farthest_m,
+    farthest_rad,
+    rows,
+    least,
 ):
     """Fills in the rows (N, nv), zero before, and bounds (N,) of all stops that are broken or nearly so; how many.
 
@@ -179,7 +196,7 @@ def find(
     positions, orientations = world_frames(parent, offset_m, qpos)
     count = 0
     for j in range(1, JOINT_COUNT):
-        count = _limits_of(j, qpos, qvel, low[j], high[j], target[j], ease_s, farthest_rad, rows, least, count)
+        count = _limits_of(j, qpos, qvel, low[j], high[j], target[j], ease_s, limp, farthest_rad, rows, least, count)
     ends = capsules_at(capsules, positions, orientations)
     for n in range(len(pairs)):
         if count == len(least):
@@ -193,7 +210,7 @@ def find(
         row = rows[count]
         _add_place(parent, positions, orientations, capsules.joint[a], on_a, normal, 1.0, row)
         _add_place(parent, positions, orientations, capsules.joint[b], on_b, normal, -1.0, row)
-        least[count] = -max(gap_m, 0.0) / ease_s
+        least[count] = -max(gap_m, 0.0) / ease_s - limp * CREEP_MPS
         if _rate(row, qvel) < least[count] + NEAR_MPS:
             count += 1
         else:
@@ -233,7 +250,7 @@ def _add_place(parent, positions, orientations, joint, place, normal, sign, row)
 
 
 @njit(cache=True)
-def _limits_of(j, qpos, qvel, low, high, target, ease_s, farthest_rad, rows, least, count):
+def _limits_of(j, qpos, qvel, low, high, target, ease_s, limp, farthest_rad, rows, least, count):
     """Adds the rows of one joint's limits, those that the target oversteps moved out to it: all that are not far, if
     one is broken, since what holds that one turns into the others."""
     a, v = 3 + 4 * j, 3 + 3 * j
@@ -257,7 +274,7 @@ def _limits_of(j, qpos, qvel, low, high, target, ease_s, farthest_rad, rows, lea
                 slope = sign * (turned[axis][k] - now[k]) / NUDGE_RAD
                 rows[count, v + axis] = slope
                 rate += slope * qvel[v + axis]
-            least[count] = -max(room, 0.0) / ease_s
+            least[count] = -max(room, 0.0) / ease_s - limp * CREEP_RADPS
             broken |= rate < least[count]
             count += 1
     if broken:

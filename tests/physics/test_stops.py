@@ -179,7 +179,7 @@ def test_a_row_is_how_the_gap_or_the_angle_changes_and_pushes_nobody_about():
     rows, least = np.zeros((stops.MOST_ROWS, NV)), np.empty(stops.MOST_ROWS)
     count = stops.find(
         PARENT, BODY.offset_m, BODY.limit_low_rad, BODY.limit_high_rad, pose.rotations, SHAPES, MODEL.pairs,
-        qpos, qvel, stops.EASE_S, stops.FARTHEST_M, stops.NEAR_RAD, rows, least,
+        qpos, qvel, stops.EASE_S, 0.0, stops.FARTHEST_M, stops.NEAR_RAD, rows, least,
     )  # fmt: skip
     assert count > 5
     moved = qpos.copy()
