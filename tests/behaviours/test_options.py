@@ -55,6 +55,7 @@ OPTIONS = {
     "look-ahead": ("settings.timing.sustained_ahead_s=0.25", ("settings.timing", "sustained_ahead_s = 0.25")),
     "another objective": ("settings.objective.form=smoothed", ("settings.objective", 'form = "smoothed"')),
     "braced farther": ("settings.balance.brace_m=0.05", ("settings.balance", "brace_m = 0.05")),
+    "the thesis's rule for knees": ("settings.blend.knee_rule=least", ("settings.blend", 'knee_rule = "least"')),
     "stiffer": ("settings.response.stiffness=2.0", ("settings.response", "stiffness = 2.0")),
     "a blow in an instant": ("settings.response.contact_s=0", ("settings.response", "contact_s = 0")),
     "a slower recovery": ("settings.recovery.part_one_s=0.4", ("settings.recovery", "part_one_s = 0.4")),
