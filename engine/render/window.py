@@ -71,8 +71,6 @@ class Window:
             glfw.wait_events_timeout(0.1)
         else:
             glfw.poll_events()
-        if self._lost.is_set():
-            raise EnvironmentTrouble("display-lost", "the display has gone away, and the window with it")
         events, self._waiting = self._waiting, []
         return events
 
@@ -159,7 +157,7 @@ def _watch_display() -> None:
 
 
 def _end_without_display(_) -> int:
-    trouble = EnvironmentTrouble("DISPLAY_LOST", "the display has gone away, and the window with it")
+    trouble = EnvironmentTrouble("display-lost", "the display has gone away, and the window with it")
     print(trouble.line(), file=sys.stderr, flush=True)
     os._exit(trouble.exit_code)
 

@@ -133,8 +133,10 @@ def test_typing_takes_the_keys_until_it_ends(stage):
     stage.frames(5, at(300, 108), press(300, 108), release(300, 108))
     assert stage.frames(5, Key("p", "press"), Text("h"), Text("ö"), Key("p", "release")) == []
     assert stage.values["word"] == "hö"
-    stage.frames(5, press(50, 50), release(50, 50))
+    # the same frame may bring the press that ends the typing, and the next key
+    assert Key("p", "press") in stage.frames(5, press(50, 50), release(50, 50), Key("p", "press"))
     assert stage.frames(1, Key("p", "press")) == [Key("p", "press")]
+    assert stage.values["word"] == "hö"
 
 
 def test_a_canvas_knows_the_mouse(stage):

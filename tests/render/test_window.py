@@ -2,11 +2,9 @@
 
 from __future__ import annotations
 
-import ctypes
 import json
 import os
 import queue
-import shutil
 import subprocess
 import sys
 import threading
@@ -17,13 +15,12 @@ import numpy as np
 import pytest
 from PIL import Image, ImageGrab
 
+from tests.window.desk import ask_to_close, needs_display
+
 ROOT = Path(__file__).resolve().parents[2]
 PATIENCE_S = 30.0
 
-pytestmark = pytest.mark.skipif(
-    shutil.which("Xvfb") is None or shutil.which("xdotool") is None,
-    reason="needs Xvfb and xdotool for a virtual display",
-)
+pytestmark = needs_display
 
 
 class Desk:
@@ -177,36 +174,7 @@ def test_resizing_and_minimising(desk):
 
 
 def test_closing_the_window_ends_the_loop_in_order(desk):
-    _ask_to_close(desk.env["DISPLAY"], int(desk.window))
+    ask_to_close(desk.env["DISPLAY"], int(desk.window))
     desk.event("Close")
     desk.wait_for(lambda line: "closed" in line)
     assert desk.probe.wait(PATIENCE_S) == 0
-
-
-class _ClientMessage(ctypes.Structure):
-    """Xlib's XClientMessageEvent, padded to the size of XEvent."""
-
-    _fields_ = (
-        ("type", ctypes.c_int),
-        ("serial", ctypes.c_ulong),
-        ("send_event", ctypes.c_int),
-        ("display", ctypes.c_void_p),
-        ("window", ctypes.c_ulong),
-        ("message_type", ctypes.c_ulong),
-        ("format", ctypes.c_int),
-        ("data", ctypes.c_long * 5),
-        ("padding", ctypes.c_long * 24),
-    )
-
-
-def _ask_to_close(display_name: str, window: int) -> None:
-    """What a window manager sends when the user presses the cross."""
-    x = ctypes.CDLL("libX11.so.6")
-    x.XOpenDisplay.restype = ctypes.c_void_p
-    x.XInternAtom.restype = ctypes.c_ulong
-    display = ctypes.c_void_p(x.XOpenDisplay(display_name.encode()))
-    protocols, delete = (x.XInternAtom(display, name, 0) for name in (b"WM_PROTOCOLS", b"WM_DELETE_WINDOW"))
-    message = _ClientMessage(type=33, window=window, message_type=protocols, format=32)
-    message.data[0] = delete
-    x.XSendEvent(display, ctypes.c_ulong(window), 0, ctypes.c_long(0), ctypes.byref(message))
-    x.XCloseDisplay(display)

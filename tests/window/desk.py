@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import ctypes
+import functools
 import os
 import shutil
 import subprocess
@@ -22,6 +24,22 @@ needs_display = pytest.mark.skipif(
     shutil.which("Xvfb") is None or shutil.which("xdotool") is None,
     reason="needs Xvfb and xdotool for a virtual display",
 )
+
+
+@functools.cache
+def make_ready() -> None:
+    """Everything that a window needs and only the first one has to wait for: compiled kernels and a sculpted body."""
+    from demos.filming import studio
+    from demos.running import open_scenario
+    from demos.stage import scene_of
+    from demos.window.session import Session
+    from engine.render.camera import Camera
+
+    session = Session(*open_scenario("sway"), Path(), lambda: 0.0)
+    for _ in range(3):
+        session.advance(1.0)
+    with studio() as renderer:
+        renderer.draw(scene_of(session.world), Camera(), (64, 64))
 
 
 class Desk:
@@ -57,6 +75,8 @@ class Desk:
         return program
 
     def run(self, *words: str, **environment: str) -> subprocess.Popen:
+        """`brace demo` with these words."""
+        make_ready()
         program = subprocess.Popen(
             [sys.executable, "-m", "demos.cli", "demo", *words], cwd=self.folder, env={**self.env, **environment},
             text=True, stdout=subprocess.PIPE, stderr=subprocess.PIPE,
@@ -105,6 +125,10 @@ class Desk:
             time.sleep(0.1)
         self.xdotool("mouseup", str(button))
 
+    def quit(self) -> None:
+        """The cross of the window is pressed."""
+        ask_to_close(self.env["DISPLAY"], int(self.window))
+
     def screen(self) -> np.ndarray:
         """(H, W, 3) all of the screen."""
         picture = ImageGrab.grab(xdisplay=self.env["DISPLAY"]).convert("RGB")
@@ -127,8 +151,6 @@ class Desk:
 
 def set_resources(display_name: str, text: str) -> None:
     """The RESOURCE_MANAGER property of the screen, which tells programs the DPI."""
-    import ctypes
-
     x = ctypes.CDLL("libX11.so.6")
     x.XOpenDisplay.restype = ctypes.c_void_p
     x.XInternAtom.restype = x.XDefaultRootWindow.restype = ctypes.c_ulong
@@ -138,4 +160,33 @@ def set_resources(display_name: str, text: str) -> None:
     data = f"{text}\n".encode()
     root = ctypes.c_ulong(x.XDefaultRootWindow(display))
     x.XChangeProperty(display, root, ctypes.c_ulong(name), ctypes.c_ulong(kind), 8, 0, data, len(data))
+    x.XCloseDisplay(display)
+
+
+class _ClientMessage(ctypes.Structure):
+    """Xlib's XClientMessageEvent, padded to the size of XEvent."""
+
+    _fields_ = (
+        ("type", ctypes.c_int),
+        ("serial", ctypes.c_ulong),
+        ("send_event", ctypes.c_int),
+        ("display", ctypes.c_void_p),
+        ("window", ctypes.c_ulong),
+        ("message_type", ctypes.c_ulong),
+        ("format", ctypes.c_int),
+        ("data", ctypes.c_long * 5),
+        ("padding", ctypes.c_long * 24),
+    )
+
+
+def ask_to_close(display_name: str, window: int) -> None:
+    """What a window manager sends when the user presses the cross."""
+    x = ctypes.CDLL("libX11.so.6")
+    x.XOpenDisplay.restype = ctypes.c_void_p
+    x.XInternAtom.restype = ctypes.c_ulong
+    display = ctypes.c_void_p(x.XOpenDisplay(display_name.encode()))
+    protocols, delete = (x.XInternAtom(display, name, 0) for name in (b"WM_PROTOCOLS", b"WM_DELETE_WINDOW"))
+    message = _ClientMessage(type=33, window=window, message_type=protocols, format=32)
+    message.data[0] = delete
+    x.XSendEvent(display, ctypes.c_ulong(window), 0, ctypes.c_long(0), ctypes.byref(message))
     x.XCloseDisplay(display)

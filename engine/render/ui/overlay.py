@@ -14,6 +14,8 @@ from engine.render.ui.paint import Painter
 from engine.render.ui.style import apply_style
 from engine.render.ui.widgets import Ui
 
+FRAMES_TO_SEE = 4  # until imgui has taken a press in
+
 
 class Overlay:
     """One a process: imgui's context is global."""
@@ -29,6 +31,7 @@ class Overlay:
         self.ui = Ui()
         self.held: set[int] = set()  # buttons that went down on a widget
         self._waiting: deque[Event] = deque()
+        self._beside = 0  # frames until imgui has seen that a press beside its widgets ended the typing
 
     def take(self, events: Iterable[Event], scale: float) -> list[Event]:
         """Everything is told to imgui with the next frames; returns what was not meant for a widget."""
@@ -45,6 +48,7 @@ class Overlay:
         io.delta_time = min(max(passed_s, 1e-4), 0.5)
         self.ui.width, self.ui.height = width / scale, height / scale
         self.ui.areas.clear()
+        self._beside = max(self._beside - 1, 0)
         tell(self._share(), scale)
         imgui.new_frame()
         draw(self.ui)
@@ -73,11 +77,13 @@ class Overlay:
     def _took(self, event: Event, scale: float) -> bool:
         """Keys while a line is typed in; the mouse over an area or a popup, and from press to release."""
         if isinstance(event, (Key, Text)):
-            return imgui.get_io().want_text_input
+            return imgui.get_io().want_text_input and not self._beside
         if isinstance(event, MouseButton):
             if event.pressed and self._over(event.x_px / scale, event.y_px / scale):
                 self.held.add(event.button)
                 return True
+            if event.pressed:
+                self._beside = FRAMES_TO_SEE
             if not event.pressed and event.button in self.held:
                 self.held.discard(event.button)
                 return True
