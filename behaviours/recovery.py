@@ -2,8 +2,8 @@
 
 Part one blends two sequences: the running simulation, and the sustained pose held and then a quarter of the way to
 the return pose. Part two is the rest of the way. The return blend thus lasts 500 ms, the first 125 of them in part
-one (A9). The return pose is the clip 1/6 s after perception, its path shifted so that the foot which stands there
-stands where it stood.
+one (A9). The return pose is the clip 1/6 s after perception, or where a foot next stands in it if none does then, its
+path shifted so that this foot stands where it stood.
 """
 
 from __future__ import annotations
@@ -83,10 +83,21 @@ def move_sustained_over_feet(world, row: int) -> None:
     s.root_m[row, :2] += shift[:2]
 
 
+def land_first(world, row: int) -> None:
+    """Where no foot stands in the clip at re-entry, goes on to its next landing: nobody floats back into a flight."""
+    r, timing = world[Reaction], world.assets.settings.timing
+    begins_s, longest_s = float(r.clip_s[row]), world.assets.settings.recovery.land_within_s
+    for waited in range(whole_ticks(longest_s) + 1):
+        if planted_in_clip(world, row, begins_s + waited * TICK_S + timing.sustained_ahead_s).any():
+            r.clip_s[row] = begins_s + waited * TICK_S
+            return
+
+
 def plan_return(world, row: int, tick: int, begins: float) -> None:
     """The blend from the sustained pose to the return pose, and the foot that has to step for it."""
     s, b, f, body = world[Sustained], world[Blend], world[Feet], body_of(world, row)
     sustained = Pose(s.root_m[row].copy(), s.rotations[row].copy())
+    land_first(world, row)
     support_side = anchor_clip(world, row)
     back = clip_pose(world, row, return_clip_s(world, row))
     b.from_root_m[row], b.from_rotations[row] = sustained

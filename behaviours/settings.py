@@ -259,6 +259,9 @@ class Recovery(NamedTuple):
     part_two_s: Annotated[float, Constant("s", "4.2", "the rest of the way to the return pose")] = 0.375
     part_one_share: Annotated[float, Constant("1", "4.1.3", "of the return blend that is over after part one")] = 0.25
     hold_s: Annotated[float, Constant("s", "4.2", "the sustained pose is held when nothing was touched")] = 1.0 / 3.0
+    land_within_s: Annotated[
+        float, Constant("s", "A6", "where no foot stands at re-entry: the clip's next landing, if it comes within this")
+    ] = 0.6
     capture_beyond_m: Annotated[float, Constant("m", "A8", "capture point this far outside the feet: knocked down")] = (
         0.45
     )

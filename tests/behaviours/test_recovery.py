@@ -15,6 +15,7 @@ from behaviours.recovery import move_sustained_over_feet, return_blend_ticks, re
 from engine.body.footing import sole_depth_m
 from engine.body.kinematics import com_of, joints_of
 from engine.body.skeleton import ANKLES, PELVIS, Pose
+from engine.clips.playback import planted_at
 from engine.maths import quaternion
 from tests.behaviours.runs import AHEAD, simulation_of, track_of
 
@@ -47,6 +48,24 @@ def test_it_leads_to_the_clip_a_sixth_of_a_second_after_perception():
     back = clip_pose(world, 0, return_clip_s(world, 0))
     np.testing.assert_allclose(world[Blend].to_rotations[0], back.rotations, atol=1e-12)
     np.testing.assert_allclose(world[Blend].to_root_m[0], back.root_m, atol=1e-12)
+
+
+def test_who_was_met_in_a_flight_of_the_clip_goes_back_to_its_next_landing(library_clip):
+    """`hop` is in the air at 3.45 s + 1/6 s; back into that pose one would have to float up."""
+    clip = library_clip("hop")
+    simulation = until(Phase.RECOVER_BLEND, clip=clip, start_s=3.35, threat=AHEAD | {"perceived_s": 0.1})
+    world = simulation.world
+    perceived_s = 3.35 + 13 / 120
+    assert not planted_at(clip, perceived_s + 1 / 6).any()
+    entered_s = return_clip_s(world, 0)
+    assert planted_at(clip, entered_s).any()
+    assert not planted_at(clip, entered_s - 1 / 120).any()  # no later than need be
+    assert perceived_s + 1 / 6 < entered_s < perceived_s + 1 / 6 + 0.6
+    before_m = simulation.observer.tracks[0].root_m[-1][2]
+    for _ in range(80):
+        simulation.step()
+    rises_m = np.array([root[2] for root in simulation.observer.tracks[0].root_m[-80:]]) - before_m
+    assert rises_m.max() < 0.2
 
 
 @pytest.mark.parametrize("azimuth", [30.0, -70.0])
