@@ -60,7 +60,7 @@ def _mirrored(components):
 
 FORWARDS, BACKWARDS, LEFTWARDS = (_both_sides(given) for given in (_FORWARDS, _BACKWARDS, _LEFTWARDS))
 RIGHTWARDS = _mirrored(LEFTWARDS)
-RESTING = _both_sides({"left_hip": (5, -6, 0), "left_knee": (0, 5, 0), "left_ankle": (0, 32, 0)})
+RESTING = _both_sides({"left_hip": (5, -6, 0), "left_knee": (0, 5, 0), "left_ankle": (0, 50, 0)})
 LEGS = (*HIPS, *KNEES, *ANKLES)
 LIES_BELOW = 0.3  # of the leg's length, the hips
 
