@@ -23,6 +23,7 @@ CLIPS_BESIDE = {
     "punch": "02_05.amc",
     "walk 2": "07_04.amc",
 }
+INSTEAD = {"fight": "punch", "kick": "kick"}  # clips of `brace clips fetch --extra`, where those are not there
 WANTED = ("walk", "stand", "fight", "dance", "run to a stop")  # these at least, of six
 GET_UPS = ("getup_faceup", "getup_facedown")
 
@@ -77,6 +78,8 @@ def find_clips() -> dict[str, Clip]:
     for name, file in CLIPS_BESIDE.items():
         if (BESIDE / file).is_file():
             found[name] = find_clip(str(BESIDE / file))
+        elif name in INSTEAD and INSTEAD[name] in ready_names():
+            found[name] = find_clip(INSTEAD[name])
     if not found:
         raise EnvironmentTrouble("clip-not-fetched", "no real clip is here; `brace clips fetch` brings some")
     return found
@@ -84,8 +87,8 @@ def find_clips() -> dict[str, Clip]:
 
 def where_from(clips: dict[str, Clip]) -> str:
     """A line that says which clips were found and where, and what is missing of those that are wanted."""
-    fetched = [name for name in clips if name in LIBRARY_CLIPS]
-    beside = [name for name in clips if name in CLIPS_BESIDE]
+    beside = [name for name in clips if (BESIDE / CLIPS_BESIDE.get(name, "")).is_file()]
+    fetched = [name for name in clips if name not in beside]
     words = f"clips: {', '.join(fetched) or 'none'} (fetched)"
     words += f"; {', '.join(beside)} (CMU files beside the checkout)" if beside else "; none beside the checkout"
     missing = [name for name in WANTED if name not in clips]
@@ -94,7 +97,12 @@ def where_from(clips: dict[str, Clip]) -> str:
 
 def get_ups_here() -> bool:
     """Whether there is a motion that gets up."""
-    return any(listed.ready for listed in LIBRARY if listed.name in GET_UPS)
+    return any(name in ready_names() for name in GET_UPS)
+
+
+def ready_names() -> list[str]:
+    """The clips of the library that are here."""
+    return [listed.name for listed in LIBRARY if listed.ready]
 
 
 def make_cases(clips: dict[str, Clip], count: int, seed: int = 1) -> list[Case]:

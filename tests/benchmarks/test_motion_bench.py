@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from behaviours.measures import Worst
-from demos.benchmarks import motion
+from demos.benchmarks import motion, motion_cases
 from demos.benchmarks.motion_cases import (
     AHEAD_DEG,
     NEW_ONE_IN,
@@ -188,6 +188,19 @@ def test_the_search_and_the_falls_are_told():
 
 def test_missing_clips_are_named():
     assert "MISSING: stand, fight, dance, run to a stop" in where_from({"walk": find_clip("sway")})
+
+
+def test_without_files_beside_the_checkout_the_fetched_ones_do(monkeypatch, tmp_path, library_clip):
+    library_clip("walk")
+    monkeypatch.setattr(motion_cases, "BESIDE", tmp_path)
+    clips = motion_cases.find_clips()
+    words = where_from(clips)
+    assert "walk" in clips
+    assert "walk 2" not in clips
+    assert "none beside the checkout" in words
+    assert "run to a stop" in words.partition("MISSING: ")[2]
+    if "punch" in motion_cases.ready_names():
+        assert clips["fight"].name == "punch"
 
 
 def test_a_small_run_of_it(monkeypatch):
