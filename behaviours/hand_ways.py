@@ -3,8 +3,8 @@
 Straight hand lines pass through torso or head in half the cases (specification A7), and past the shoulder along ways
 that no shoulder follows. Once for a blend, before it begins, each arm is tried along its whole way: straight first,
 then with its elbow led otherwise; failing that it is swung, as `behaviours.swung_ways` finds best.
-`behaviours.arm_ways` then follows what was chosen. Each arm is judged beside the other as that was before, so left and
-right are treated alike.
+`behaviours.arm_ways` then follows what was chosen. Which arm gives way to the other is a matter of their ways, so left
+and right are treated alike.
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ from behaviours.overlap import ARM_CAPSULES, PAIRS, too_deep
 from behaviours.swung_ways import bend_swung, put_capsules
 from behaviours.timing import ease
 from engine.body.kinematics import joints_of
-from engine.body.skeleton import ELBOWS, PELVIS, SHOULDERS, Pose
+from engine.body.skeleton import ELBOWS, PELVIS, SHOULDERS, WRISTS, Pose
 from engine.maths import vector
 from engine.maths.copying import copy_into
 
@@ -29,6 +29,7 @@ APART_M = 0.010  # skins keep this far from each other, where they are so far at
 TOLERATED_M, TOLERATED_RAD = 0.008, 0.005  # a way is good if it comes this near to what it should not
 STRIDE_M = 1.6  # an elbow that at its fastest would go farther than this in a whole blend turns over
 FAR_AWAY_M = 1e3
+ROUNDS = 3
 
 
 class Moments(NamedTuple):
@@ -109,9 +110,17 @@ def choose_way(body, capsules, start, end, moments, side, ways, other_m):
 
 @njit(cache=True)
 def choose_ways(body, capsules, start, end, moments, ways):
-    """Chooses both arms' ways, in place: each first as if the other were not there, then beside the other's."""
+    """Chooses both arms' ways, in place: each first as if the other were not there; then the one that has the shorter
+    way goes round the other where they meet, and the other round it if they still do.
+    """
     other_m = np.full(moments.ends_m.shape, FAR_AWAY_M)
-    for _ in range(2):
-        for side in range(2):
-            choose_way(body, capsules, start, end, moments, side, ways, other_m)
+    for side in range(2):
+        choose_way(body, capsules, start, end, moments, side, ways, other_m)
+    far_m = (
+        vector.distance(vector.at(start.positions, WRISTS[0]), vector.at(end.positions, WRISTS[0])),
+        vector.distance(vector.at(start.positions, WRISTS[1]), vector.at(end.positions, WRISTS[1])),
+    )
+    shorter = 0 if far_m[0] <= far_m[1] else 1
+    for n in range(ROUNDS):
         copy_into(other_m.reshape(-1), moments.ends_m.reshape(-1))
+        choose_way(body, capsules, start, end, moments, shorter if n % 2 == 0 else 1 - shorter, ways, other_m)

@@ -15,10 +15,11 @@ from engine.body.skeleton import ANKLES, HIPS, JOINT_COUNT, KNEES, TOES
 from engine.body.two_bones import soft_reach
 from engine.maths import vector
 
-LEG_SOFT_M = 0.010  # a leg straightens over this length, instead of snapping straight
+LEG_SOFT_M = 0.010  # a leg straightens over this length, instead of snapping straight; one in the air,
+AIR_SOFT_M = 0.006  # whose foot may stay behind, over a few times this, before and after its goal is out of reach
 LYING_LEG, STANDING_LEG = 0.2, 0.5  # hip over ankle in shares of the leg: it lies, or it may be standing
 UNDECIDED_M = 1e-4  # a knee this near to the line from hip to ankle points nowhere
-LEG_SPARE_M = 0.0005  # and stays this much short of it, but where its own motion has it straighter
+LEG_SPARE_M = 0.0005  # a leg stays this much short of it, but where its own motion has it straighter
 
 
 class FootGoals(NamedTuple):
@@ -118,17 +119,23 @@ def hold_feet(body, goals, own_lengths, knees, weight, root_m, rotations, positi
         if goals.bound[side]:
             bend_toe(goals.toe, rotations, side)
             swivel = swivel_at(knees, weight, side, goals.ankle_m[side], positions, orientations)
-            apply_leg(
-                body,
-                rotations,
-                positions,
-                orientations,
-                side,
-                goals.ankle_m[side],
-                goals.turned[side],
-                swivel,
-                LEG_SOFT_M * (1.0 - goals.bears[side]),
-            )
+            target = reachable(body, vector.at(positions, HIPS[side]), goals.ankle_m[side], side, goals.bears[side])
+            apply_leg(body, rotations, positions, orientations, side, target, goals.turned[side], swivel, 0.0)
+
+
+@njit(cache=True)
+def reachable(body, hip_m, ankle_m, side, bears):
+    """Where an ankle goes that is wanted at a place: there if its foot bears; else the nearer to the leg's full length,
+    the more it falls short, so that a knee neither snaps straight nor out of being straight.
+    """
+    wanted = vector.subtract(vector.at(ankle_m.reshape(1, 3), 0), hip_m)
+    far, soft = vector.length(wanted), AIR_SOFT_M * (1.0 - bears)
+    full = vector.length(vector.at(body.offset_m, KNEES[side])) + vector.length(vector.at(body.offset_m, ANKLES[side]))
+    if soft <= 1e-9 or far < 0.5 * full:
+        return vector.add(hip_m, wanted)
+    spare = (full - far) / soft
+    short = soft * (math.log1p(math.exp(-abs(spare))) + max(spare, 0.0))
+    return vector.along(hip_m, wanted, (full - short) / far)
 
 
 @njit(cache=True)

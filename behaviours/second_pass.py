@@ -10,7 +10,7 @@ from __future__ import annotations
 
 from numba import njit
 
-from behaviours.arm_ways import follow_way
+from behaviours.arm_ways import follow_way, within_limits
 from behaviours.held_feet import hold_feet, leg_lengths
 from behaviours.neck_line import hold_neck
 from engine.body.kinematics import centre_of_mass, joints_into
@@ -84,9 +84,11 @@ def hold_ends(body, start, end, weight, goals, ways, knees, root_m, rotations, p
     for side in range(2):
         if not goals.bound[side]:
             slerp_foot(body, start, end, weight, side, rotations, positions, orientations)
+        if goals.bears[side] < 1.0:
+            ease_ankle(body, start, end, weight, side, goals.bears[side], rotations, positions, orientations)
     neck_m = vector.mix(vector.at(start.positions, NECK), vector.at(end.positions, NECK), weight)
     hold_neck(body, neck_m, root_m, rotations, positions, orientations)
-    slerp_head(start, end, weight, rotations, orientations)
+    slerp_head(body, start, end, weight, rotations, orientations)
     return (
         follow_way(body, start, end, weight, 0, ways, rotations, positions, orientations),
         follow_way(body, start, end, weight, 1, ways, rotations, positions, orientations),
@@ -102,9 +104,24 @@ def slerp_foot(body, start, end, weight, side, rotations, positions, orientation
 
 
 @njit(cache=True)
-def slerp_head(start, end, weight, rotations, orientations):
-    """Turns the head to the slerp of its two orientations in the world, whatever the trunk does below. In place."""
+def ease_ankle(body, start, end, weight, side, bears, rotations, positions, orientations):
+    """Turns a foot in the air back to where its ankle goes; the less, the more it bears. In place."""
+    ankle = ANKLES[side]
+    q, changed = within_limits(body, ankle, start.rotations[ankle], end.rotations[ankle], weight, rotations[ankle])
+    if changed:
+        eased = quaternion.slerp(q, quaternion.at(rotations, ankle), bears)
+        turned = quaternion.multiply(quaternion.at(orientations, KNEES[side]), eased)
+        turn_end_to(body.offset_m, rotations, positions, orientations, KNEES[side], ankle, turned, TOES[side])
+
+
+@njit(cache=True)
+def slerp_head(body, start, end, weight, rotations, orientations):
+    """Turns the head to the slerp of its two orientations in the world, whatever the trunk does below, as far as it
+    goes. In place.
+    """
     turned = quaternion.slerp(start.orientations[HEAD], end.orientations[HEAD], weight)
-    local = quaternion.multiply(quaternion.conjugate(quaternion.at(orientations, NECK)), turned)
-    quaternion.put(rotations, HEAD, quaternion.normalise(local))
-    quaternion.put(orientations, HEAD, turned)
+    below = quaternion.at(orientations, NECK)
+    local = quaternion.normalise(quaternion.multiply(quaternion.conjugate(below), turned))
+    local = within_limits(body, HEAD, start.rotations[HEAD], end.rotations[HEAD], weight, local)[0]
+    quaternion.put(rotations, HEAD, local)
+    quaternion.put(orientations, HEAD, quaternion.multiply(below, local))

@@ -9,6 +9,7 @@ from numba import njit
 
 from behaviours import feet as foot_plan
 from behaviours import seams
+from behaviours.arm_ways import yielding
 from behaviours.components import (
     Blend,
     Blow,
@@ -28,9 +29,10 @@ from behaviours.playing import body_of, clip_time_s, planted_in_clip
 from behaviours.sources import foot_goals, note_knees, source_pose
 from engine.body.kinematics import joints_into
 from engine.body.limb_ik import apply_leg, leg_swivel
-from engine.body.limits import clamp_keeping
-from engine.body.skeleton import HIPS, JOINT_COUNT, KNEES
+from engine.body.limits import clamp_keeping, components, from_components
+from engine.body.skeleton import HIPS, JOINT_COUNT, KNEES, PELVIS
 from engine.core.schedule import Stage, system
+from engine.maths import quaternion, vector
 
 BELONGINGS = (Ragdoll, Blow, Residual, Blend, Feet, Sustained, Playback)  # what a pose is made from
 KNEE_PLAY_RAD = 0.05  # what a knee gives beyond its limits, so that one that is straight anyway does not catch
@@ -61,6 +63,33 @@ def keep_knees(body, source, rotations):
 
 
 @njit(cache=True)
+def keep_joints(body, source, offsets, elapsed_s, half_life_s, rotations):
+    """Keeps a residual (in a pose (J, 4)) from taking head, trunk and arms beyond their limits. In place.
+
+    Beyond them is let be what the source (J, 4) itself has, and what the old motion had at the seam, as it dies away:
+    `offsets` (J, 3) are the residual's there.
+    """
+    for j in range(HIPS[0]):
+        if j == PELVIS:
+            continue
+        old = turned_by(source[j], remaining(vector.at(offsets, j), (0.0, 0.0, 0.0), elapsed_s, half_life_s))
+        a, b, c = components(source[j]), components(old), components(rotations[j])
+        low, high = vector.at(body.limit_low_rad, j), vector.at(body.limit_high_rad, j)
+        x = drawn_in(low[0], high[0], a[0], b[0], c[0])
+        y = drawn_in(low[1], high[1], a[1], b[1], c[1])
+        z = drawn_in(low[2], high[2], a[2], b[2], c[2])
+        if x != c[0] or y != c[1] or z != c[2]:
+            quaternion.put(rotations, j, from_components(x, y, z))
+
+
+@njit(cache=True)
+def drawn_in(low, high, first, last, value):
+    """A component, gently, within its limits or at least no farther out than two others; radians."""
+    beyond = max(value - max(high, first, last), 0.0) + min(value - min(low, first, last), 0.0)
+    return value - beyond + yielding(beyond)
+
+
+@njit(cache=True)
 def stand_on(body, root_m, rotations, ankle_m, turned, bears, own_lengths):
     """Leg IK of both legs onto ankle goals (2, 3), (2, 4), in place. The knees stay where the least swing leaves them.
 
@@ -80,17 +109,8 @@ def stand_on(body, root_m, rotations, ankle_m, turned, bears, own_lengths):
         positions[j, 2] -= drop
     for side in range(2):
         swivel = leg_swivel(positions, orientations, side)
-        apply_leg(
-            body,
-            rotations,
-            positions,
-            orientations,
-            side,
-            ankle_m[side],
-            turned[side],
-            swivel,
-            LEG_SOFT_M * (1.0 - bears[side]),
-        )
+        soft_m = LEG_SOFT_M * (1.0 - bears[side])
+        apply_leg(body, rotations, positions, orientations, side, ankle_m[side], turned[side], swivel, soft_m)
 
 
 @system(
@@ -148,6 +168,7 @@ def settled_pose(world, row: int, tick: float) -> tuple[np.ndarray, np.ndarray]:
     own_lengths = (own[0] + left[0], own[1] + left[1])
     unaltered = source.rotations.copy()
     add_remaining(source.root_m, source.rotations, r.root[row], r.joints[row], elapsed_s, half_life_s)
+    keep_joints(body, unaltered, r.joints[row, 0], elapsed_s, half_life_s, source.rotations)
     keep_knees(body, unaltered, source.rotations)
     goals_with_residual(goals.ankle_m, goals.turned, r.ankles[row], r.ankle_turns[row], elapsed_s, half_life_s)
     stand_on(body, source.root_m, source.rotations, goals.ankle_m, goals.turned, goals.bears, own_lengths)

@@ -141,14 +141,16 @@ def choose_hand_ways(world, row: int) -> None:
 
 
 def foot_goals(world, row: int, tick: float, source: Pose) -> FootGoals:
-    """Where both ankles are to be: by the plan where a foot is held or steps, else where the source has them."""
+    """Where both ankles are to be: by the plan where a foot stands, else where the source has them: a foot in the air
+    may be behind its plan, as far as leg and ankle go.
+    """
     planned = goals_of(world[Feet], row, tick)
     positions, orientations = joints_of(body_of(world, row), source)
-    free = ~planned.bound[:, None]
+    loose = (~planned.bound | (planned.bears < 1.0))[:, None]
     return FootGoals(
-        np.where(free, positions[ANKLE_ROWS], planned.ankle_m),
-        np.where(free, orientations[ANKLE_ROWS], planned.turned),
-        np.where(free, source.rotations[TOE_ROWS], planned.toe),
+        np.where(loose, positions[ANKLE_ROWS], planned.ankle_m),
+        np.where(loose, orientations[ANKLE_ROWS], planned.turned),
+        np.where(loose, source.rotations[TOE_ROWS], planned.toe),
         np.ones(2, bool),
         planned.bears,
     )
