@@ -28,10 +28,24 @@ class _Section(BaseModel):
 
 
 class StanceSpec(_Section):
-    """A stance worn under everything: a set of `brace stance`, or one of Alberts' words, and how much of it."""
+    """A stance worn under everything: a set of `brace stance`, or one of Alberts' words, or a shape of one's own by
+    its states and numbers; and how much of it.
+    """
 
     set: str = "posture"
     intensity: Annotated[float, Field(ge=-2, le=2)] = 0.0
+    shape: dict[str, bool | float | str] | None = None  # instead of a set
+
+    @field_validator("shape")
+    @classmethod
+    def _a_shape(cls, values: dict[str, Any] | None) -> dict[str, Any] | None:
+        from behaviours.stance.shape import shape
+
+        try:
+            shape(**(values or {}))
+        except (BadInput, TypeError) as trouble:
+            raise ValueError(trouble.message if isinstance(trouble, BadInput) else str(trouble)) from None
+        return values
 
 
 class CharacterSpec(_Section):

@@ -42,9 +42,10 @@ from behaviours.search import Library
 from behaviours.senses import watch_free_threats
 from behaviours.settings import Settings, override
 from behaviours.settling import settle_poses
+from behaviours.stance.shape import mix, shape
 from behaviours.threats import make_threat
 from behaviours.timing import TICK_S
-from behaviours.wearing import Worn, worn_by, worn_pose
+from behaviours.wearing import Worn, worn_by, worn_pose, worn_shape
 from engine.body.capsules import Capsules, body_capsules
 from engine.body.skeleton import Body
 from engine.clips.clip import Clip
@@ -115,7 +116,13 @@ def _clip_of(spec: CharacterSpec, find: FindClip) -> Clip:
 
 
 def _stance_of(spec: CharacterSpec, body: Body) -> Worn | None:
-    return worn_by(body, spec.stance.set, spec.stance.intensity) if spec.stance.intensity != 0.0 else None
+    stance = spec.stance
+    if stance.intensity == 0.0:
+        return None
+    if stance.shape is not None:
+        own: dict[str, Any] = dict(stance.shape)
+        return worn_shape(body, mix(shape(), shape(**own), stance.intensity))
+    return worn_by(body, stance.set, stance.intensity)
 
 
 def flat_settings(nested: dict[str, Any]) -> dict[str, Any]:

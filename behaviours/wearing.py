@@ -10,7 +10,7 @@ larger and faster.
 from __future__ import annotations
 
 import math
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 from numba import njit
@@ -21,6 +21,9 @@ from engine.body.limb_ik import apply_leg, leg_swivel
 from engine.body.limits import clamp_keeping
 from engine.body.skeleton import ANKLES, HIPS, JOINT_COUNT, PELVIS, Body, Pose
 from engine.maths import quaternion
+
+if TYPE_CHECKING:
+    from behaviours.stance.shape import Shape
 
 
 class Worn(NamedTuple):
@@ -35,10 +38,16 @@ class Worn(NamedTuple):
 def worn_by(body: Body, name: str, intensity: float) -> Worn:
     """What a set of `behaviours.stance` at an intensity puts under this body. BadInput lists the sets."""
     from behaviours.stance.around import Around
-    from behaviours.stance.offsets import offsets_of
     from behaviours.stance.shape_sets import shape_of
 
-    offsets = offsets_of(body, shape_of(name, intensity, Around()))
+    return worn_shape(body, shape_of(name, intensity, Around()))
+
+
+def worn_shape(body: Body, shape: Shape) -> Worn:
+    """What a shape of one's own puts under this body."""
+    from behaviours.stance.offsets import offsets_of
+
+    offsets = offsets_of(body, shape)
     ahead_m, left_m = offsets.pelvis_shift_m
     return Worn(np.ascontiguousarray(offsets.rotations), offsets.pelvis_drop_m, float(ahead_m), float(left_m))
 

@@ -11,7 +11,7 @@ from behaviours.stance.around import look_around
 from behaviours.stance.assembly import Plan, new_figure
 from behaviours.stance.footprints import Footprints
 from behaviours.stance.penalty import Side
-from behaviours.stance.shape import HEAVIER, LEFT_FOOT, Shape
+from behaviours.stance.shape import HEAVIER, LEFT_FOOT, Shape, mix, shape
 from engine.body import kinematics, limits
 from engine.body.skeleton import ANKLES, HIPS, KNEES, TOES, Body, Pose
 from engine.core.errors import BadInput
@@ -81,6 +81,18 @@ def solve_stance(
     if not feet_given and wanted.numbers.width_m != 0.0:
         feet = footprints.stand(body, width_m=max(footprints.neutral_width_m(body) + wanted.numbers.width_m, 0.0))
     return solve_shape(body, wanted, feet, reach_m=reach_m, look_at_m=target, balance_m=balance_m)
+
+
+def solve_saved(
+    body: Body, own: Shape, intensity: float = 1.0, *, object_m=None, reach_left_m=None, reach_right_m=None, feet=None
+) -> StanceResult:
+    """`solve_stance` for a shape of one's own: from neutral at 0 to the shape at 1, and past it."""
+    if not np.isfinite(intensity):
+        raise BadInput("stance", f"intensity is {intensity}, expected a finite number")
+    reach_m = (_point(reach_left_m, "reach_left_m"), _point(reach_right_m, "reach_right_m"))
+    look_at_m = next((p for p in (_point(object_m, "object_m"), *reach_m) if p is not None), None)
+    wanted = mix(shape(), own, intensity)
+    return solve_shape(body, wanted, feet, reach_m=reach_m, look_at_m=look_at_m)
 
 
 def solve_shape(

@@ -16,11 +16,12 @@ def register(subparsers) -> None:
     parser = subparsers.add_parser(
         "stance",
         help="one stance of a shape set: how somebody stands there",
-        description="Solves one stance. SET is a shape set or one of Alberts' words for a posture, such as hunched.",
+        description="Solves one stance. SET is a shape set, one of Alberts' words for a posture, such as hunched, or a "
+        "shape's .toml, such as the window's Stance panel saves (behaviours/stance/shape_file.py describes it).",
         epilog="example: brace stance recoil-strong --intensity 0.8 --object 1.2,0.4,1.3 -o recoil.png",
     )
     parser.add_argument(
-        "set", metavar="SET", nargs="?", help="a shape set, or a word such as hunched; `--list` shows all"
+        "set", metavar="SET", nargs="?", help="a shape set, a word such as hunched (`--list` shows all), or FILE.toml"
     )
     parser.add_argument("--list", action="store_true", help="all shape sets with what they mean")
     parser.add_argument(
@@ -53,10 +54,13 @@ def run(args: argparse.Namespace) -> None:
         return
     if args.set is None:
         raise BadInput("usage", "expected a SET (`brace stance --list` shows them)")
-    meaning_of(args.set)
+    own = _own_shape(args.set)
+    if own is None:
+        meaning_of(args.set)
     kind = _kind(args.output)
     body, feet, points = _wanted(args)
-    result, milliseconds = _solve(body, args, feet, points)
+    points = {name: point or (own.points.get(name) if own else None) for name, point in points.items()}
+    result, milliseconds = _solve(body, args, feet, points, own)
     if kind == "still":
         _write_still(args.output, body, result, points)
     elif kind == "film":
@@ -104,16 +108,28 @@ def _point(text: str | None, name: str) -> tuple[float, float, float] | None:
     return x, y, z
 
 
-def _solve(body, args, feet, points) -> tuple[Any, float]:
+def _own_shape(name: str):
+    """The shape of a .toml file (`shape_file.SavedShape`); None for anything else."""
+    if not name.lower().endswith(".toml"):
+        return None
+    from behaviours.stance.shape_file import read_shape
+
+    return read_shape(name)
+
+
+def _solve(body, args, feet, points, own) -> tuple[Any, float]:
     """The stance, and how long it took: the best of a few, the first of which may have compiled kernels."""
     import time
 
-    from behaviours.stance.solve import solve_stance
+    from behaviours.stance.solve import solve_saved, solve_stance
 
     best = float("inf")
     for _ in range(1 + REPEATS):
         begun = time.perf_counter()
-        result = solve_stance(body, args.set, args.intensity, feet=feet, **points)
+        if own is None:
+            result = solve_stance(body, args.set, args.intensity, feet=feet, **points)
+        else:
+            result = solve_saved(body, own.shape, args.intensity, feet=feet, **points)
         best = min(best, 1000.0 * (time.perf_counter() - begun))
     return result, best
 

@@ -28,6 +28,7 @@ PANELS = (
     ("demos.window.rules_panel", "RulesPanel"),
     ("demos.window.timing_panel", "TimingPanel"),
     ("demos.window.character_panel", "CharacterPanel"),
+    ("demos.window.stance_panel", "StancePanel"),
     ("demos.window.clips_panel", "ClipsPanel"),
     ("demos.window.view_panel", "ViewPanel"),
     ("demos.window.save_panel", "SavePanel"),
