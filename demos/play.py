@@ -18,14 +18,14 @@ from demos.stage import floor_under, scene_of
 from demos.window.help import ACTIONS, draw_help
 from demos.window.keeping import Keeper
 from demos.window.marks import draw_marks
-from demos.window.panels import Panel, make_panels
+from demos.window.panels import Panel, Remembering, make_panels
 from demos.window.phases import COLOURS
 from demos.window.plots import draw_plots
 from demos.window.session import Session
 from demos.window.throwing import character_under, throw_speed_mps
 from demos.window.timeline_bar import HEIGHT, TimelineBar
 from engine.core.clock import TICK_RATE_HZ
-from engine.render.camera import Camera
+from engine.render.camera import Camera, off_centre
 from engine.render.events import CTRL, LEFT_BUTTON, Drop, Event, Key, MouseButton, MouseMove
 from engine.render.scene import FloorStyle, Scene
 
@@ -34,6 +34,7 @@ if TYPE_CHECKING:
 
 PANEL_WIDTH, MARGIN = 300.0, 10.0
 PLOT_WIDTH = 230.0
+COVERING_HALF_LIFE_S = 0.1
 TIMELINE_HEIGHT = HEIGHT + 20.0
 
 
@@ -48,13 +49,20 @@ class Play:
         self.tab = "Threat"
         self.held_s: float | None = None  # how long a throw has been held
         self.timeline = TimelineBar()
+        self.scale = 1.0  # pixels of the picture for a point of the panels
+        self._covered: tuple[float, ...] = (0.0, 0.0)  # at the right and at the bottom, points, eased
         self._panels: list[Panel] | None = None
+        self._kept: dict[str, Any] = {}  # what panels remember from the last time, by title
 
     @property
     def panels(self) -> list[Panel]:
         """Made when they are first needed: some import much."""
         if self._panels is None:
             self._panels = make_panels()
+            for panel in self._panels:
+                kept = self._kept.get(panel.title)
+                if isinstance(panel, Remembering) and isinstance(kept, dict):
+                    panel.remember(kept)
         return self._panels
 
     @property
@@ -84,6 +92,9 @@ class Play:
     def advance(self, passed_s: float) -> None:
         if self.held_s is not None:
             self.held_s += passed_s
+        view, weight = self.session.view, 1.0 - 0.5 ** (passed_s / COVERING_HALF_LIFE_S)
+        covered = (PANEL_WIDTH + MARGIN if view.panels else 0.0, TIMELINE_HEIGHT + MARGIN if view.timeline else 0.0)
+        self._covered = tuple(now + weight * (to - now) for now, to in zip(self._covered, covered, strict=True))
         self.session.advance(passed_s)
 
     def scene(self) -> Scene:
@@ -100,6 +111,10 @@ class Play:
     def centre_m(self) -> np.ndarray | None:
         """What the camera goes along with; None to stay."""
         return self.session.centre_m() if self.session.view.follow else None
+
+    def framed(self, camera: Camera, size_px: tuple[int, int]) -> Camera:
+        """The character in the middle of what panels and timeline leave free."""
+        return off_centre(camera, 0.5 * self._covered[0] * self.scale, 0.5 * self._covered[1] * self.scale, size_px)
 
     def take(self, events: list[Event]) -> list[Event]:
         """The open panel's part of the events that no widget took."""
@@ -216,9 +231,8 @@ class Play:
     def memory(self) -> dict[str, Any]:
         """What the user's settings keep, panels' own included."""
         session = self.session
-        own = {
-            panel.title: panel.memory() for panel in self._panels or () if hasattr(panel, "memory")
-        }  # fmt: skip
+        own = dict(self._kept)
+        own |= {panel.title: panel.memory() for panel in self._panels or () if isinstance(panel, Remembering)}
         return {
             "view": vars(session.view),
             "tab": self.tab,
@@ -236,7 +250,8 @@ class Play:
         taken_over(self.session.slow_motion, {"enabled": kept.get("slow_motion")})
         taken_over(self.session, {key: kept.get(key) for key in ("auto_fire_s", "auto_vary")})
         taken_over(self, {"tab": kept.get("tab")})
-        self._kept_panels = kept.get("panels")
+        panels = kept.get("panels")
+        self._kept = panels if isinstance(panels, dict) else {}
 
 
 def _draw_status(ui: Ui, play: Play) -> None:

@@ -92,7 +92,10 @@ def _window(args: argparse.Namespace) -> None:
         hands = CameraHands(orbit_camera(play.session.centre_m(), *shot.camera))
         governor = Governor() if args.quality == "auto" else None
         try:
-            run_loop(context, renderer, play, layer=layer, hands=hands, follow=play.centre_m, governor=governor)
+            run_loop(
+                context, renderer, play, layer=layer, hands=hands, follow=play.centre_m, framed=play.framed,
+                governor=governor,
+            )  # fmt: skip
         finally:
             play.keeper.close()
             layer.close()

@@ -36,7 +36,8 @@ class PanelLayer:
             from engine.render.ui.overlay import Overlay
 
             self._overlay = Overlay(renderer.gl)
-        self._overlay.paint(renderer.finished, self.scale or context.scale, passed_s, self.play.draw)
+        self.play.scale = self.scale or context.scale
+        self._overlay.paint(renderer.finished, self.play.scale, passed_s, self.play.draw)
 
     def close(self) -> None:
         if self._overlay:

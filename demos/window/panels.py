@@ -16,7 +16,7 @@ Beside `draw` a panel may have any of these:
 from __future__ import annotations
 
 import importlib
-from typing import TYPE_CHECKING, Protocol
+from typing import TYPE_CHECKING, Any, Protocol, runtime_checkable
 
 if TYPE_CHECKING:
     from demos.window.session import Session
@@ -41,6 +41,15 @@ class Panel(Protocol):
     title: str
 
     def draw(self, ui: Ui, session: Session) -> None: ...
+
+
+@runtime_checkable
+class Remembering(Protocol):
+    """A panel with something to keep from one start to the next."""
+
+    def memory(self) -> dict[str, Any]: ...
+
+    def remember(self, kept: dict[str, Any]) -> None: ...
 
 
 def make_panels() -> list[Panel]:

@@ -63,6 +63,11 @@ def pan(camera: Camera, dx_px: float, dy_px: float, size_px) -> Camera:
     return moved(camera, (up * dy_px - right * dx_px) * metres_per_px)
 
 
+def off_centre(camera: Camera, left_px: float, up_px: float, size_px) -> Camera:
+    """Moved sideways so that what stood in the middle of the picture stands that much farther left and up in it."""
+    return pan(camera, -left_px, -up_px, size_px)
+
+
 def zoom(camera: Camera, steps: float) -> Camera:
     """Towards the target for positive steps, an eighth of the way each."""
     distance_m = np.clip(camera.distance_m * math.exp(-0.13 * steps), MIN_DISTANCE_M, MAX_DISTANCE_M)

@@ -53,6 +53,7 @@ def run_loop(
     layer: Layer | None = None,
     hands: CameraHands | None = None,
     follow: Callable[[], object] | None = None,
+    framed: Callable[[Camera, tuple[int, int]], Camera] | None = None,
     frames: int | None = None,
     clock: Callable[[], float] = time.perf_counter,
     governor: Governor | None = None,
@@ -60,6 +61,7 @@ def run_loop(
     """Runs until the window closes, or for a number of frames. Returns the hands, with the camera where it was left.
 
     layer: paints over the finished picture, and is the first to be shown events.
+    framed: the camera that the picture is taken with, from the one in the hands: for pictures that are partly covered.
     governor: picks the quality from what frames take; None leaves the renderer's as it is.
     follow: gives a point (3,) that the camera keeps up with, or None to stay. hands None: the first picture frames
     everything in it.
@@ -73,7 +75,7 @@ def run_loop(
         events = hands.take(happened, size_px)
         now_s = clock()
         passed_s, last_s = now_s - last_s, now_s
-        show.handle(events, hands.camera, size_px)
+        show.handle(events, framed(hands.camera, size_px) if framed else hands.camera, size_px)
         show.advance(passed_s)
         scene = show.scene()
         if hands.centred:
@@ -81,7 +83,7 @@ def run_loop(
         elif follow is not None:
             hands.follow(follow(), passed_s)
         begun_s = clock() if governor else 0.0
-        renderer.draw(scene, steadied(hands.camera))
+        renderer.draw(scene, steadied(framed(hands.camera, size_px) if framed else hands.camera))
         if governor:
             renderer.finish()
             renderer.quality = governor.took(clock() - begun_s, size_px)

@@ -79,3 +79,26 @@ def test_a_window_starts_as_the_last_one_ended(tmp_path):
     second.remember(kept)
     assert second.memory() == first.memory()
     assert second.session.auto_fire_s == 4.5
+
+
+def test_panels_keep_what_is_theirs_even_if_they_were_not_opened(tmp_path, monkeypatch):
+    class Note:
+        title, word = "Note", "empty"
+
+        def draw(self, ui, session): ...
+
+        def memory(self):
+            return {"word": self.word}
+
+        def remember(self, kept):
+            self.word = str(kept.get("word"))
+
+    monkeypatch.setattr("demos.play.make_panels", lambda: [Note()])
+    play = play_of(*open_scenario("sway"), tmp_path)
+    play.remember({"panels": {"Note": {"word": "kept"}, "Gone": {"x": 1}}})
+    assert play.memory()["panels"] == {"Note": {"word": "kept"}, "Gone": {"x": 1}}  # not opened
+    assert play.panels[0].word == "kept"
+    play.panels[0].word = "new"
+    assert play.memory()["panels"]["Note"] == {"word": "new"}
+    play.remember({"panels": ["damaged"]})
+    assert play.memory()["panels"] == {"Note": {"word": "new"}}
