@@ -7,10 +7,10 @@ import numpy as np
 from demos.figures.meeting import Meeting
 from demos.figures.sheet import Sheet
 from engine.body.kinematics import joints_of
-from engine.body.support import hull, sole_points
+from engine.body.support import CONTACT_M, hull, sole_points
 from engine.render.scene import RULES_YELLOW, SUSTAINED_ORANGE
 
-GROUND, SOLE, RADIUS = "#f2f4f7", "#dfe3e9", 9.0
+GROUND, SOLE, RAISED, RADIUS = "#f2f4f7", "#d5dae2", "#f8f9fb", 9.0
 
 
 def draw_plan(
@@ -36,7 +36,10 @@ def draw_plan(
 
     sheet.polygon(at(found.support_m), GROUND, "faint", 1.6)
     for sole in sole_points(meeting.body, *joints_of(meeting.body, found.sustained)):
-        sheet.polygon(at(hull(np.ascontiguousarray(sole[:, :2]))), SOLE, "hair", 1.0, layer=5)
+        # a heel that is raised bears nothing: the polygon leaves it out, and it is drawn paler
+        bears = sole[:, 2] <= sole[:, 2].min() + CONTACT_M
+        for part, fill in ((sole, RAISED), (sole[bears], SOLE)):
+            sheet.polygon(at(hull(np.ascontiguousarray(part[:, :2]))), fill, "hair", 1.0, layer=5)
     before, after = (at(np.asarray(point)[:2])[0] for point in (before_m, after_m))
     sheet.line([tuple(before), tuple(after)], "ink", 1.2, layer=6)
     sheet.circle(tuple(before), RADIUS, RULES_YELLOW, "ink", 1.2, layer=8)
