@@ -18,6 +18,7 @@ from behaviours.rules.controls import LEAN, REACH_LEFT, RECOIL, SWIVEL_LEFT, TUR
 from engine.body.limb_ik import KEEP, leg_onto, place_children
 from engine.body.skeleton import HEAD, HIPS, PELVIS, TOES
 from engine.maths import quaternion, vector
+from engine.maths.inner_kernel import inner_kernel
 
 
 @njit(cache=True)
@@ -84,7 +85,7 @@ def update_pose(task, pelvis_shift, controls, soft_m, free_arms, posed):
             vector.put(posed.palms, side, palm)
 
 
-@njit(cache=True)
+@inner_kernel
 def _remember(made_from, row, numbers):
     """Whether these are the numbers that were remembered last; they are from now on."""
     same = True
@@ -94,7 +95,7 @@ def _remember(made_from, row, numbers):
     return same
 
 
-@njit(cache=True)
+@inner_kernel
 def place_trunk(
     root_m, lean_control, turn_control, heading_rad, threat, choices, rules,
     offset_m, start_rotations, start_orientations, low_rad, high_rad, rotations, positions, orientations,
@@ -117,7 +118,7 @@ def place_trunk(
             place_children(offset_m, rotations, positions, orientations, joint - 1, joint)
 
 
-@njit(cache=True)
+@inner_kernel
 def place_obstacles(joints, ends_m, positions, orientations, obstacles):
     """Writes where the capsules that arms must clear are in the world: (C, 6), both ends of each."""
     for c in range(len(joints)):
@@ -128,7 +129,7 @@ def place_obstacles(joints, ends_m, positions, orientations, obstacles):
                 obstacles[c, 3 * end + k] = p[k]
 
 
-@njit(cache=True)
+@inner_kernel
 def hang_leg(side, offset_m, start_rotations, rotations, positions, orientations):
     """A leg whose foot is not on the ground goes with the pelvis as it is."""
     hip = HIPS[side]
@@ -138,7 +139,7 @@ def hang_leg(side, offset_m, start_rotations, rotations, positions, orientations
         place_children(offset_m, rotations, positions, orientations, parent, joint)
 
 
-@njit(cache=True)
+@inner_kernel
 def plant_leg(
     side, ankle_m, foot, toe, knee_rad, soft_m, offset_m, start_rotations, start_orientations, low_rad, high_rad,
     margin_rad, obstacles, radii_m, rotations, positions, orientations,

@@ -19,6 +19,7 @@ from engine.body import limits
 from engine.body.limb_ik import CARRIED, KEEP, apply_arm, arm_swivel, place_children, side_sign
 from engine.body.skeleton import CLAVICLES, ELBOWS, SHOULDERS, WRISTS
 from engine.maths import quaternion, vector
+from engine.maths.inner_kernel import inner_kernel
 
 # the hand goes straight, and the elbow's swivel is interpolated, as the thesis has it; or the elbow goes where slerping
 # the arm takes it; or the whole arm is swung, and the hand goes where that takes it
@@ -46,7 +47,7 @@ def swung_ways() -> HandWays:
     return HandWays(np.full(2, SWUNG), np.zeros((2, KNOTS, KNOT_PARTS)))
 
 
-@njit(cache=True)
+@inner_kernel
 def follow_way(body, start, end, weight, side, ways, rotations, positions, orientations):
     """One arm on its way from end to end, in place, whatever it was. The trunk is where it is to be.
 
@@ -73,7 +74,7 @@ def follow_way(body, start, end, weight, side, ways, rotations, positions, orien
     return keep_within_limits(body, first, last, weight, side, rotations, positions, orientations)
 
 
-@njit(cache=True)
+@inner_kernel
 def place_arm(body, side, rotations, positions, orientations):
     """Forward kinematics from the clavicle to the wrist."""
     chain = (CLAVICLES[side], SHOULDERS[side], ELBOWS[side], WRISTS[side])
@@ -81,7 +82,7 @@ def place_arm(body, side, rotations, positions, orientations):
         place_children(body.offset_m, rotations, positions, orientations, chain[k], chain[k + 1])
 
 
-@njit(cache=True)
+@inner_kernel
 def swivel_between(start, end, weight, side):
     """An elbow's swivel between its two ends, radians, the shorter way round."""
     first = arm_swivel(start.positions, start.orientations, side, CARRIED)
@@ -89,7 +90,7 @@ def swivel_between(start, end, weight, side):
     return mix_angle(first, last, weight)
 
 
-@njit(cache=True)
+@inner_kernel
 def knot_weights(weight):
     """How much of either knot there is on the way: the two inner Bernstein polynomials of degree 3, nothing at either
     end.
@@ -99,7 +100,7 @@ def knot_weights(weight):
     return both * left, both * weight
 
 
-@njit(cache=True)
+@inner_kernel
 def swing_arm(body, first, last, weight, side, bends):
     """A swung arm's shoulder and elbow between two poses (J, 4); bends (KNOTS, KNOT_PARTS)."""
     shoulder, elbow = SHOULDERS[side], ELBOWS[side]
@@ -115,7 +116,7 @@ def swing_arm(body, first, last, weight, side, bends):
     )  # fmt: skip
 
 
-@njit(cache=True)
+@inner_kernel
 def swing_shoulder(low, high, first, last, weight, sign, bends):
     """A shoulder on its way between two rotations, all given by their components; sign: 1 left, -1 right."""
     early, late = knot_weights(weight)
@@ -129,7 +130,7 @@ def swing_shoulder(low, high, first, last, weight, sign, bends):
     return limits.from_components(x, y, z)
 
 
-@njit(cache=True)
+@inner_kernel
 def swing_elbow(low, high, first, last, weight, bends):
     """Likewise an elbow: only its flexion is bent."""
     early, late = knot_weights(weight)
@@ -159,7 +160,7 @@ def yielding(excess):
     return excess * BEYOND_RAD / (abs(excess) + BEYOND_RAD)
 
 
-@njit(cache=True)
+@inner_kernel
 def overstep(body, joint, first, last, weight, q):
     """How far a rotation lies outside a joint's limits as the two ends widen them: three components, radians; and its
     components.
@@ -173,7 +174,7 @@ def overstep(body, joint, first, last, weight, q):
     ), c
 
 
-@njit(cache=True)
+@inner_kernel
 def within_limits(body, joint, first, last, weight, q):
     """A rotation, drawn back to its limits gently; and whether that changed anything."""
     beyond, c = overstep(body, joint, first, last, weight, q)
@@ -186,7 +187,7 @@ def within_limits(body, joint, first, last, weight, q):
     ), True
 
 
-@njit(cache=True)
+@inner_kernel
 def keep_within_limits(body, first, last, weight, side, rotations, positions, orientations):
     """Shoulder and elbow drawn back to their limits, in place. Returns how far that moves the hand, metres."""
     was, moved = vector.at(positions, WRISTS[side]), False

@@ -20,6 +20,7 @@ from engine.body import limits
 from engine.body.kinematics import centre_of_mass, joints_into
 from engine.body.skeleton import ANKLES, ELBOWS, JOINT_COUNT, KNEES, PELVIS, WRISTS
 from engine.maths import quaternion, vector
+from engine.maths.inner_kernel import inner_kernel
 
 
 class BlendEnd(NamedTuple):
@@ -58,7 +59,7 @@ def primary_support(planted, ankles_m, com_m):
     return best
 
 
-@njit(cache=True)
+@inner_kernel
 def mix_joint(joint, first, last, weight):
     """A joint between two rotations: slerped; elbow, wrist and knee component by component, as hinges want it."""
     if joint in ELBOWS or joint in WRISTS or joint in KNEES:
@@ -66,7 +67,7 @@ def mix_joint(joint, first, last, weight):
     return quaternion.slerp(first, last, weight)
 
 
-@njit(cache=True)
+@inner_kernel
 def slerp_from_support(body, start, end, weight, support, root_m, rotations, positions, orientations):
     """First pass: every joint slerped, and the pelvis placed so that the support foot goes straight from end to end."""
     for j in range(JOINT_COUNT):

@@ -9,8 +9,6 @@ from __future__ import annotations
 
 import math
 
-from numba import njit
-
 from behaviours.limb_freedom import free_arm
 from behaviours.perceived import target_centre
 from behaviours.rules import block, recoil, wrap
@@ -19,27 +17,28 @@ from engine.body.limits import clamp_rotation
 from engine.body.skeleton import BACK, CLAVICLES, ELBOWS, HEAD, SHOULDERS, WRISTS
 from engine.body.two_bones import SOFT_REACH_M, soft_reach
 from engine.maths import quaternion, vector
+from engine.maths.inner_kernel import inner_kernel
 from engine.maths.shapes import distance_to_segment, outwards
 
 SLIDE_M, SLIDES, SLIDE_HALVINGS = 0.02, 8, 6  # how a palm looks for room farther out on its line
 SAME_TURN_RAD = 1e-6  # a hand that got the turn it wanted needs no second look
 
 
-@njit(cache=True)
+@inner_kernel
 def reset(start_rotations, rotations, first, last):
     """Joints first to last turned as in the start pose."""
     for j in range(first, last + 1):
         quaternion.put(rotations, j, quaternion.at(start_rotations, j))
 
 
-@njit(cache=True)
+@inner_kernel
 def clamp(low_rad, high_rad, rotations, j):
     """One joint held within its limits, in place."""
     q = clamp_rotation(vector.at(low_rad, j), vector.at(high_rad, j), quaternion.at(rotations, j))
     quaternion.put(rotations, j, q)
 
 
-@njit(cache=True)
+@inner_kernel
 def guard(
     side, recoil_control, reach_control, swivel_control, free, slide_m, build, threat, choices, rules,
     offset_m, start_rotations, low_rad, high_rad, obstacles, rotations, positions, orientations,
@@ -78,7 +77,7 @@ def guard(
     return vector.add(vector.at(positions, wrist), quaternion.rotate(turned, build.palm_m[side])), wrong
 
 
-@njit(cache=True)
+@inner_kernel
 def guard_freely(
     side, recoil_control, reach_control, swivel_control, build, threat, choices, rules,
     offset_m, start_rotations, low_rad, high_rad, obstacles, rotations, positions, orientations,
@@ -110,7 +109,7 @@ def guard_freely(
     return palm, wrong
 
 
-@njit(cache=True)
+@inner_kernel
 def guard_goal(side, reach_control, swivel_control, build, threat, choices, rules, positions, orientations):
     """Where one palm is wanted, how the hand is turned (world) and the elbow's swivel: block, wrap, or a mixture."""
     b, w, p = rules.block, rules.wrap, rules.pelvis
@@ -144,7 +143,7 @@ def guard_goal(side, reach_control, swivel_control, build, threat, choices, rule
     return palm, hand, swivel
 
 
-@njit(cache=True)
+@inner_kernel
 def clear_of_trunk(palm, hand_radius_m, obstacles, radii_m, soften_m):
     """A palm's target pushed out of trunk and head, as far as the hand is thick. obstacles (C, 6), see limb_freedom."""
     for c in range(len(radii_m)):
@@ -157,7 +156,7 @@ def clear_of_trunk(palm, hand_radius_m, obstacles, radii_m, soften_m):
     return palm
 
 
-@njit(cache=True)
+@inner_kernel
 def bend_arm(side, target, swivel_rad, greatest_rad, offset_m, rotations, positions, orientations):
     """Puts the wrist on a world target with the elbow at a swivel, in place: both bones along -Z of their joints.
 
@@ -192,7 +191,7 @@ def bend_arm(side, target, swivel_rad, greatest_rad, offset_m, rotations, positi
     vector.put(positions, wrist, vector.along(root, n, reach_m))
 
 
-@njit(cache=True)
+@inner_kernel
 def turn_hand(side, hand, offset_m, low_rad, high_rad, rotations, positions, orientations):
     """Gives the hand a world orientation within the limits: what turns about the forearm is the forearm's to do.
 
@@ -215,7 +214,7 @@ def turn_hand(side, hand, offset_m, low_rad, high_rad, rotations, positions, ori
     place_children(offset_m, rotations, positions, orientations, elbow, wrist)
 
 
-@njit(cache=True)
+@inner_kernel
 def stop_shoulder(side, offset_m, low_rad, high_rad, rotations, positions, orientations):
     """Holds one shoulder within its limits and carries arm and hand along, in place."""
     clavicle, wrist = CLAVICLES[side], WRISTS[side]

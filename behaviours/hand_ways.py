@@ -23,6 +23,7 @@ from engine.body.kinematics import joints_of
 from engine.body.skeleton import ELBOWS, PELVIS, SHOULDERS, WRISTS, Pose
 from engine.maths import vector
 from engine.maths.copying import copy_into
+from engine.maths.inner_kernel import inner_kernel
 
 MOMENTS = 17  # at which a way is judged
 APART_M = 0.010  # skins keep this far from each other, where they are so far at the ends
@@ -64,7 +65,7 @@ def let_be(first_m, last_m, weight, out):
         out[n] = a + weight * (b - a)
 
 
-@njit(cache=True)
+@inner_kernel
 def is_good(body, capsules, start, end, moments, side, ways, other_m):
     """Puts one arm on its way at every moment, in place; returns whether that is a way for an arm, beside the other's
     capsules (K, C, 2, 3).
@@ -88,7 +89,7 @@ def is_good(body, capsules, start, end, moments, side, ways, other_m):
     return good
 
 
-@njit(cache=True)
+@inner_kernel
 def choose_way(body, capsules, start, end, moments, side, ways, other_m):
     """Chooses one arm's way, in place: the present one if that is good; else a straight one, if one is; else swung."""
     if is_good(body, capsules, start, end, moments, side, ways, other_m):

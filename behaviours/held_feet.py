@@ -14,6 +14,7 @@ from engine.body.limb_ik import apply_leg, knee_zero, leg_swivel, side_sign
 from engine.body.skeleton import ANKLES, HIPS, JOINT_COUNT, KNEES, TOES
 from engine.body.two_bones import soft_reach
 from engine.maths import vector
+from engine.maths.inner_kernel import inner_kernel
 
 LEG_SOFT_M = 0.010  # a leg straightens over this length, instead of snapping straight; one in the air,
 AIR_SOFT_M = 0.006  # whose foot may stay behind, over a few times this, before and after its goal is out of reach
@@ -52,7 +53,7 @@ def knees_between(start, end, least, before_m):
     )
 
 
-@njit(cache=True)
+@inner_kernel
 def swivel_at(knees, weight, side, ankle_m, positions, orientations):
     """A knee's swivel on the way, radians: between those of the ends, the shorter way round; or, with the thesis's rule
     (4.3), where the circle on which the knee can be comes nearest to where it was a frame ago.
@@ -68,7 +69,7 @@ def swivel_at(knees, weight, side, ankle_m, positions, orientations):
     return mix_angle(knees.first_rad[side], knees.last_rad[side], weight)
 
 
-@njit(cache=True)
+@inner_kernel
 def mix_angle(first_rad, last_rad, weight):
     """An angle on the shorter way round from the first to the last."""
     way = (last_rad - first_rad + math.pi) % (2.0 * math.pi) - math.pi
@@ -92,7 +93,7 @@ def legs_to(body, root_m, rotations, ankle_m):
     return vector.distance(positions[HIPS[0]], ankle_m[0]), vector.distance(positions[HIPS[1]], ankle_m[1])
 
 
-@njit(cache=True)
+@inner_kernel
 def bend_toe(toe, rotations, side):
     """Gives a toe its planned rotation (2, 4), in place; the leg's IK carries it into the world."""
     for k in range(4):
@@ -138,7 +139,7 @@ def reachable(body, hip_m, ankle_m, side, bears):
     return vector.along(hip_m, wanted, (full - short) / far)
 
 
-@njit(cache=True)
+@inner_kernel
 def drop_beyond_own(body, hip_m, ankle_m, side, own_length_m):
     """How far the hip has to sink to keep the ankle in the leg's reach, metres.
 

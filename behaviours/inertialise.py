@@ -12,9 +12,10 @@ from numba import njit
 
 from engine.body.skeleton import JOINT_COUNT
 from engine.maths import quaternion, springs
+from engine.maths.inner_kernel import inner_kernel
 
 
-@njit(cache=True)
+@inner_kernel
 def remaining(offset, velocity, elapsed_s, half_life_s):
     """What is left of an offset let go with a velocity, after a time: three numbers. Same units as the offset."""
     return springs.critical3(offset, velocity, (0.0, 0.0, 0.0), half_life_s, elapsed_s)[0]
@@ -33,7 +34,7 @@ def turn_from(source, shown):
     return quaternion.to_rotation_vector(quaternion.multiply(shown, quaternion.conjugate(source)))
 
 
-@njit(cache=True)
+@inner_kernel
 def turned_by(source, offset):
     """The source's orientation with a rotation-vector offset on top."""
     return quaternion.normalise(quaternion.multiply(quaternion.from_rotation_vector(offset), source))

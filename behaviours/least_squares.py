@@ -12,6 +12,8 @@ import math
 import numpy as np
 from numba import njit
 
+from engine.maths.inner_kernel import inner_kernel
+
 
 @njit(cache=True)
 def normal_equations(jacobian, residuals, matrix, slope):
@@ -56,7 +58,7 @@ def bounded_step(matrix, slope, point, low, high, damping, step):
             return
 
 
-@njit(cache=True)
+@inner_kernel
 def _solve_free(matrix, slope, held, damping, factor, step):
     """Cholesky solve for the free variables; held ones keep their step, which moves to the right-hand side."""
     n = len(step)

@@ -17,6 +17,7 @@ from engine.body.limb_ik import place_children, side_sign
 from engine.body.limits import components
 from engine.body.skeleton import ANKLES, CLAVICLES, ELBOWS, HIPS, KNEES, PELVIS, SHOULDERS, TOES, WRISTS
 from engine.maths import quaternion, vector
+from engine.maths.inner_kernel import inner_kernel
 from engine.maths.shapes import nearest_between
 
 STEP_RAD = math.radians(12.0)
@@ -91,7 +92,7 @@ def trouble(limb, turn_out_rad, margin_rad, arm_radius_m, obstacles, radii_m):
     return math.sqrt(beyond * beyond + other * other)
 
 
-@njit(cache=True)
+@inner_kernel
 def freest_turn(limb, margin_rad, arm_radius_m, obstacles, radii_m):
     """(turn, what is still wrong): the least turn about root - end that leaves nothing wrong, or that leaves least."""
     best, least = 0.0, trouble(limb, 0.0, margin_rad, arm_radius_m, obstacles, radii_m)
@@ -143,7 +144,7 @@ def free_arm(
     return wrong
 
 
-@njit(cache=True)
+@inner_kernel
 def free_leg(side, offset_m, low_rad, high_rad, margin_rad, obstacles, radii_m, rotations, positions, orientations):
     """Swings a planted leg's knee aside as far as it must, in place; the foot stays. Returns what is still wrong."""
     pelvis, hip, knee, ankle = PELVIS + 0 * side, HIPS[side], KNEES[side], ANKLES[side]
@@ -167,7 +168,7 @@ def free_leg(side, offset_m, low_rad, high_rad, margin_rad, obstacles, radii_m, 
     return wrong
 
 
-@njit(cache=True)
+@inner_kernel
 def turn_limb(offset_m, limb, turn_out_rad, parent, upper, middle, end, rotations, positions, orientations):
     """Turns a limb about root - end: the root joint's rotation, and positions and orientations down to the end."""
     turn_rad = limb.outwards * turn_out_rad

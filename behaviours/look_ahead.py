@@ -19,6 +19,7 @@ from engine.body.kinematics import joints_into
 from engine.body.skeleton import HIPS, PELVIS
 from engine.body.two_bones import SOFT_REACH_M
 from engine.maths import quaternion, vector
+from engine.maths.inner_kernel import inner_kernel
 
 SHARES = 8  # of the look-ahead that are tried, all of it first
 HALVINGS = 10
@@ -35,7 +36,7 @@ class PelvisWay(NamedTuple):
     thighs: np.ndarray
 
 
-@njit(cache=True)
+@inner_kernel
 def legs_trouble(task, controls, root_m, posed):
     """What limits forbid the planted legs with the pelvis here, lean and turn done, radians; 0 if nothing."""
     start, bones, feet = task.start, task.bones, task.feet
@@ -57,7 +58,7 @@ def legs_trouble(task, controls, root_m, posed):
     return worst
 
 
-@njit(cache=True)
+@inner_kernel
 def set_pelvis(task, controls, way, share, leg_share, posed):
     """Puts the start pose's pelvis this share of its way, drawn within reach of the planted feet, in place."""
     start, bones = task.start, task.bones
@@ -73,7 +74,7 @@ def set_pelvis(task, controls, way, share, leg_share, posed):
         start.root_m[k] = root[k] + pulled[k]
 
 
-@njit(cache=True)
+@inner_kernel
 def _braced_trouble(task, controls, way, share, leg_share, braced, posed):
     set_pelvis(task, controls, way, share, leg_share, posed)
     root = task.start.root_m

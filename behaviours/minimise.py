@@ -22,6 +22,7 @@ import numpy as np
 from numba import njit
 
 from engine.maths.copying import copy_into
+from engine.maths.inner_kernel import inner_kernel
 
 # how a search ended, by its `counts[STOP]`
 STOPS = ("running", "converged", "iterations", "line_search", "flat")
@@ -73,7 +74,7 @@ def new_search(start):
     return search
 
 
-@njit(cache=True)
+@inner_kernel
 def begin_with(search, slopes):
     """Gives a fresh search the curvature of a sum of squares, from the slopes (n, m) of its weighted residuals.
 
@@ -140,7 +141,7 @@ def tell(search, value, offset, tolerance, iterations, restarts):
         _judge_step(search, value, offset, tolerance, iterations, restarts)
 
 
-@njit(cache=True)
+@inner_kernel
 def _begin_gradient(search, offset):
     copy_into(search.trial, search.point)
     search.trial[0] += offset
@@ -148,7 +149,7 @@ def _begin_gradient(search, offset):
     search.counts[PHASE] = AHEAD
 
 
-@njit(cache=True)
+@inner_kernel
 def _begin_line(search):
     """Chooses the direction, -H g, and its first step: the full one."""
     if search.counts[MOVED] == 1:
@@ -180,7 +181,7 @@ def _begin_line(search):
     search.counts[PHASE] = ON_LINE
 
 
-@njit(cache=True)
+@inner_kernel
 def _judge_step(search, value, offset, tolerance, iterations, restarts):
     """Accepts the step if it gains enough, else tries a shorter one."""
     counts, numbers = search.counts, search.numbers
@@ -201,7 +202,7 @@ def _judge_step(search, value, offset, tolerance, iterations, restarts):
             search.trial[i] = search.point[i] + shorter * search.direction[i]
 
 
-@njit(cache=True)
+@inner_kernel
 def _shorter_step(numbers, value):
     """The least point of the parabola, after the first failure of the cubic, through what is known of the line."""
     start, slope, step = numbers[VALUE], numbers[SLOPE], numbers[STEP]
@@ -223,7 +224,7 @@ def _shorter_step(numbers, value):
     return max(best, 0.1 * step)
 
 
-@njit(cache=True)
+@inner_kernel
 def _accept_step(search, value, offset, tolerance, iterations, restarts):
     counts, numbers = search.counts, search.numbers
     for i in range(len(search.point)):
@@ -243,7 +244,7 @@ def _accept_step(search, value, offset, tolerance, iterations, restarts):
         _begin_gradient(search, offset)
 
 
-@njit(cache=True)
+@inner_kernel
 def _end_round(search, offset, tolerance, restarts):
     """Leaves the search stopped, or begins another round with fresh curvature if the last one gained."""
     counts, numbers = search.counts, search.numbers
@@ -256,7 +257,7 @@ def _end_round(search, offset, tolerance, restarts):
         _begin_gradient(search, offset)
 
 
-@njit(cache=True)
+@inner_kernel
 def _forget_curvature(search):
     search.curvature[:] = 0.0
     for i in range(len(search.point)):
@@ -265,7 +266,7 @@ def _forget_curvature(search):
     search.counts[MOVED] = 0
 
 
-@njit(cache=True)
+@inner_kernel
 def _update_curvature(search):
     """The BFGS update of the inverse Hessian from the last step s and the change of gradient y.
 

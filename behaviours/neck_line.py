@@ -9,19 +9,18 @@ from __future__ import annotations
 
 import math
 
-from numba import njit
-
 from engine.body.kinematics import joints_into
 from engine.body.skeleton import BACK, NECK, PELVIS, WAIST
 from engine.body.two_bones import soft_reach
 from engine.maths import quaternion, vector
+from engine.maths.inner_kernel import inner_kernel
 
 SOFT_M = 0.010  # the trunk straightens over this length
 STRAIGHT_RAD = 0.35  # a spine bent less than this folds less than it would have to
 MOST_RAD = 0.12  # no spine folds or opens farther than this for the line's sake
 
 
-@njit(cache=True)
+@inner_kernel
 def hold_neck(body, neck_m, root_m, rotations, positions, orientations):
     """Puts the neck on a point of the world as far as the trunk reaches, by its hinge and a turn at the waist. A whole
     pose, in place.
@@ -38,7 +37,7 @@ def hold_neck(body, neck_m, root_m, rotations, positions, orientations):
     joints_into(body.offset_m, root_m, rotations, positions, orientations)
 
 
-@njit(cache=True)
+@inner_kernel
 def turn_joint(rotations, orientations, parent, joint, world_turn):
     """Turns a joint about a world axis: its local rotation, as its parent stands. In place."""
     outer = quaternion.at(orientations, parent)
@@ -48,7 +47,7 @@ def turn_joint(rotations, orientations, parent, joint, world_turn):
     )
 
 
-@njit(cache=True)
+@inner_kernel
 def fold_rad(lower, upper, hinge, wanted_m):
     """By how much to turn `upper` about the hinge so that the two bones together become so long (cosine law)."""
     lower_along, upper_along = vector.inner(lower, hinge), vector.inner(upper, hinge)

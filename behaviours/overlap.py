@@ -9,6 +9,7 @@ from engine.body.capsules import CAPSULES, Capsules, body_capsules, capsules_at
 from engine.body.kinematics import joints_of
 from engine.body.skeleton import Body, Pose
 from engine.maths import vector
+from engine.maths.inner_kernel import inner_kernel
 from engine.maths.shapes import nearest_between
 
 TRUNK = ("pelvis", "belly", "chest", "upper_chest", "head")
@@ -28,7 +29,7 @@ ARM_CAPSULES = np.array(
 )
 
 
-@njit(cache=True)
+@inner_kernel
 def depths_at(capsules, positions, orientations, out):
     """How deep each of PAIRS lies in each other in one pose, metres, negative when apart. Writes (P,)."""
     depths_into(capsules_at(capsules, positions, orientations), capsules.radius_m, PAIRS, out)
@@ -44,7 +45,7 @@ def depths_into(ends, radius_m, pairs, out):
         out[n] = radius_m[a] + radius_m[b] - apart
 
 
-@njit(cache=True)
+@inner_kernel
 def too_deep(radius_m, n, side, k, own_m, other_m, allowed_m):
     """How much deeper than allowed (K, P) one of PAIRS is at moment k, metres; 0 where a side's arm has no part in it.
 
@@ -63,7 +64,7 @@ def too_deep(radius_m, n, side, k, own_m, other_m, allowed_m):
     return max(0.0, radius_m[a] + radius_m[b] - apart - allowed_m[k, n])
 
 
-@njit(cache=True)
+@inner_kernel
 def segment(ends_m, k, c):
     """Both ends of a capsule out of (K, C, 2, 3), as tuples: views would cost more than what is done with them."""
     return (

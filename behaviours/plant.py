@@ -7,18 +7,18 @@ where the look-ahead has carried it; it is left in the air only where the hip is
 from __future__ import annotations
 
 import numpy as np
-from numba import njit
 
 from behaviours.task import FeetPlan
 from engine.body.footing import leg_length_m, nearest_footing, sole_depth_m
 from engine.body.skeleton import ANKLES, HIPS, TOES, Body
 from engine.maths import quaternion, vector
+from engine.maths.inner_kernel import inner_kernel
 
 CLEAR_M = 0.01  # of reach to spare, so that the foot need not stand exactly under its hip
 PULLS = 60  # averaged projections: two legs that both fall short agree to a fraction of a millimetre
 
 
-@njit(cache=True)
+@inner_kernel
 def pull_pelvis(leg_m, positions, feet, leg_share):
     """(3,) the least shift of the pelvis, metres, that brings every held foot within its share of the leg's length.
 

@@ -17,6 +17,7 @@ from engine.body.kinematics import centre_of_mass, joints_into
 from engine.body.limb_ik import turn_end_to
 from engine.body.skeleton import ANKLES, BACK, HEAD, HIPS, KNEES, NECK, TOES, WAIST
 from engine.maths import quaternion, vector
+from engine.maths.inner_kernel import inner_kernel
 
 TRIES, LAST_TRIES = 5, 2
 # how far the pelvis moves for a COM that is off by one: feet, neck and hands stay behind, so that it brings the COM
@@ -59,7 +60,7 @@ def balance(body, start, end, weight, goals, ways, knees, root_m, rotations, pos
     return led
 
 
-@njit(cache=True)
+@inner_kernel
 def legs_moment(body, positions, orientations):
     """Both legs' masses times their places (kg m, world), all the mass there is, and theirs."""
     moment, total, legs = (0.0, 0.0, 0.0), 0.0, 0.0
@@ -73,7 +74,7 @@ def legs_moment(body, positions, orientations):
     return moment, total, legs
 
 
-@njit(cache=True)
+@inner_kernel
 def hold_ends(body, start, end, weight, goals, ways, knees, root_m, rotations, positions, orientations):
     """Feet, neck, head and hands where they belong at this weight, whatever the pelvis. In place; returns as `balance`.
     """
@@ -95,7 +96,7 @@ def hold_ends(body, start, end, weight, goals, ways, knees, root_m, rotations, p
     )
 
 
-@njit(cache=True)
+@inner_kernel
 def slerp_foot(body, start, end, weight, side, rotations, positions, orientations):
     """Turns a foot that nothing holds to the slerp of its two orientations in the world. In place."""
     ankle = ANKLES[side]
@@ -114,7 +115,7 @@ def ease_ankle(body, start, end, weight, side, bears, rotations, positions, orie
         turn_end_to(body.offset_m, rotations, positions, orientations, KNEES[side], ankle, turned, TOES[side])
 
 
-@njit(cache=True)
+@inner_kernel
 def slerp_head(body, start, end, weight, rotations, orientations):
     """Turns the head to the slerp of its two orientations in the world, whatever the trunk does below, as far as it
     goes. In place.

@@ -12,6 +12,7 @@ from behaviours.least_squares import bounded_step, normal_equations
 from behaviours.rules.controls import CONTROL_COUNT
 from behaviours.total_error import BEGIN, RESIDUALS, SQUARES, TERMS, VARIABLES, residuals_into, total_error
 from engine.maths.copying import copy_into
+from engine.maths.inner_kernel import inner_kernel
 
 REFINE = 0.1  # each restart looks closer: the thesis's offset is as wide as the leg's soft end
 LEAST_SQUARES_OFFSET = 1e-4  # its derivatives are of residuals, not of their squares: a fine difference is safe
@@ -30,7 +31,7 @@ class Solution(NamedTuple):
     stop: int  # index into minimise.STOPS
 
 
-@njit(cache=True)
+@inner_kernel
 def _weigh(reference, residuals):
     for term in range(len(TERMS)):
         for i in range(BEGIN[term], BEGIN[term + 1]):
@@ -78,7 +79,7 @@ def solve_bfgs(task, reference, form, start, posed, offset, tolerance, iteration
     )
 
 
-@njit(cache=True)
+@inner_kernel
 def _jacobian_into(task, reference, point, low, high, trial, controls, posed, ahead, behind, jacobian):
     """Central differences of the weighted residuals; one-sided against a bound. Two evaluations a variable."""
     copy_into(trial, point)
@@ -141,7 +142,7 @@ def solve_least_squares(task, reference, start, posed, tolerance, iterations):
     return Solution(point, value, initial, done, evaluations, 0, stop)
 
 
-@njit(cache=True)
+@inner_kernel
 def _sum_of_squares(residuals):
     total = 0.0
     for i in range(len(residuals)):

@@ -19,6 +19,7 @@ from engine.body.limb_ik import side_sign
 from engine.body.skeleton import CLAVICLES, ELBOWS, SHOULDERS, WRISTS
 from engine.maths import quaternion, vector
 from engine.maths.copying import copy_into
+from engine.maths.inner_kernel import inner_kernel
 
 BENDS = KNOTS * KNOT_PARTS
 PARTS = 1 + len(PAIRS)  # of what may be wrong at a moment: the hand off its line, pairs too deep
@@ -51,7 +52,7 @@ class Arm(NamedTuple):
     line_m: np.ndarray  # (K, 3) where the wrist would be on its straight line
 
 
-@njit(cache=True)
+@inner_kernel
 def arm_of(start, end, side, weight, joints_m, turned):
     """One arm of a blend between two ends, its trunk given at K moments: (K, J, 3) and (K, J, 4)."""
     shoulder, elbow, wrist, count = SHOULDERS[side], ELBOWS[side], WRISTS[side], len(weight)
@@ -70,7 +71,7 @@ def arm_of(start, end, side, weight, joints_m, turned):
     return Arm(side, weight, upper, lower, wrists, places, hangs, line)
 
 
-@njit(cache=True)
+@inner_kernel
 def swing_into(body, capsules, arm, k, bends, ends_m):
     """An arm's capsules at a moment, into ends_m (K, C, 2, 3). Returns where its wrist is, world."""
     side = arm.side
@@ -95,7 +96,7 @@ def swing_into(body, capsules, arm, k, bends, ends_m):
     return wrist_m
 
 
-@njit(cache=True)
+@inner_kernel
 def put_capsule(capsules, c, place_m, turned, ends_m, k):
     """Both ends of one capsule in the world, into (K, C, 2, 3) at moment k."""
     first = vector.add(place_m, quaternion.rotate(turned, vector.at(capsules.start_m, c)))
@@ -167,7 +168,7 @@ def descend(body, capsules, arm, steps, bends, ends_m, other_m, allowed_m, resid
     return least
 
 
-@njit(cache=True)
+@inner_kernel
 def bend_swung(body, capsules, start, end, side, weight, joints_m, turned, ends_m, other_m, allowed_m, bends):
     """Writes the best bends (KNOTS, KNOT_PARTS) for one arm: a few steps from the best of STARTS, then more from where
     they led farthest.

@@ -21,6 +21,7 @@ from behaviours.rules.controls import CONTROL_COUNT
 from engine.body.kinematics import centre_of_mass
 from engine.body.skeleton import ANKLES, PELVIS
 from engine.maths import quaternion
+from engine.maths.inner_kernel import inner_kernel
 
 TERMS = ("balance", "hands", "torso", "pelvis_height", "feet", "controls", "limits", "outside")
 VARIABLES = 3 + CONTROL_COUNT
@@ -85,7 +86,7 @@ def measure_into(task, reference, variables, controls, posed, residuals):
         residuals[LIMITS + side] = posed.trouble[side]
 
 
-@njit(cache=True)
+@inner_kernel
 def _norm(residuals, first, count):
     total = 0.0
     for i in range(first, first + count):
@@ -93,7 +94,7 @@ def _norm(residuals, first, count):
     return math.sqrt(total)
 
 
-@njit(cache=True)
+@inner_kernel
 def _sum_of_norms(residuals, smoothing_m):
     """Eq. 3.3: every distance counted once, each norm's tip rounded over `smoothing_m` (0: not)."""
     total = 0.0

@@ -6,9 +6,10 @@ from numba import njit
 
 from engine.body.skeleton import CLAVICLES, ELBOWS, LEFT, SHOULDERS
 from engine.maths import quaternion
+from engine.maths.inner_kernel import inner_kernel
 
 
-@njit(cache=True)
+@inner_kernel
 def _turn_joint(rotations, joint, turn):
     quaternion.put(rotations, joint, quaternion.multiply(quaternion.at(rotations, joint), turn))
 

@@ -8,6 +8,7 @@ from numba import njit
 
 from behaviours.rules.lean import SPINE
 from engine.maths import quaternion
+from engine.maths.inner_kernel import inner_kernel
 
 TURN_LEFT, TURN_RIGHT = 1.0, -1.0
 
@@ -39,7 +40,7 @@ def wanted_turn(head_yaw_rad, direction, side):
     return side * turn
 
 
-@njit(cache=True)
+@inner_kernel
 def _within(angle_rad, greatest_rad):
     return min(greatest_rad, max(-greatest_rad, angle_rad))
 

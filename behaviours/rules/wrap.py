@@ -12,6 +12,7 @@ from numba import njit
 from behaviours.rules.block import smooth_max
 from engine.body.skeleton import LEFT
 from engine.maths import quaternion, vector
+from engine.maths.inner_kernel import inner_kernel
 
 
 @njit(cache=True)
@@ -26,7 +27,7 @@ def wrap_share(torso_x, towards_threat, group):
     return share * share * (3.0 - 2.0 * share)
 
 
-@njit(cache=True)
+@inner_kernel
 def wrapped_palm(side, head_centre, head, apart_m, group):
     """Where one palm centre goes: behind the head, in the world. `head` is the head's orientation; apart_m
     from the head's middle to the hand's, where they touch."""
@@ -35,7 +36,7 @@ def wrapped_palm(side, head_centre, head, apart_m, group):
     return vector.add(head_centre, quaternion.rotate(head, (behind, outward * group.palm_apart_m, -group.palm_below_m)))
 
 
-@njit(cache=True)
+@inner_kernel
 def wrapped_hand(side, head, group):
     """Palm normal and fingers of one hand (two unit vectors, world): palm on the head, fingers up and inwards."""
     inward = -1.0 if side == LEFT else 1.0

@@ -11,6 +11,7 @@ from numba import njit
 from engine.body import limb_ik, limits, two_bones
 from engine.body.skeleton import CLAVICLES, ELBOWS, SHOULDERS, WRISTS
 from engine.maths import quaternion, vector
+from engine.maths.inner_kernel import inner_kernel
 
 # slots of an arm's parameters, radians; zeros are the neutral arm
 OUT, FORWARD, ELBOW, TURN, PALM, SWIVEL = range(6)
@@ -26,7 +27,7 @@ SOFT_LEAN = 0.1  # radians of sideways lean over which the flank takes an arm up
 MOST_LEAN = 0.45  # ... and about how far it carries it; from there on the arm drops past it
 
 
-@njit(cache=True)
+@inner_kernel
 def hang_arm(body, arm, side, rotations, chest, clavicle):
     """An arm without target: away from the body, forward, turned in, the elbow bent; written to rotations (J, 4).
 
@@ -45,7 +46,7 @@ def hang_arm(body, arm, side, rotations, chest, clavicle):
     _put(rotations, WRISTS[side], quaternion.IDENTITY)
 
 
-@njit(cache=True)
+@inner_kernel
 def _hanging_from(chest, out):
     """The frame that an arm without target hangs in: it goes with the chest's heading and follows gravity for the
     rest.
@@ -64,7 +65,7 @@ def _hanging_from(chest, out):
     return quaternion.multiply(heading, tipped)
 
 
-@njit(cache=True)
+@inner_kernel
 def ready_arm(side, rotations):
     """An arm that is about to reach: at the side, the elbow at a right angle. Where it starts from decides nothing
     but its palm.
@@ -104,7 +105,7 @@ def elbow_zero(orientations, side, along):
     return two_bones.carried_zero(ahead, down, along)
 
 
-@njit(cache=True)
+@inner_kernel
 def _zero_from_carried(orientations, side, along):
     """The swivel, counted from `limb_ik.CARRIED`, at which the elbow points along `elbow_zero`."""
     carried = limb_ik.arm_zero(orientations, side, limb_ik.CARRIED, along)
@@ -113,6 +114,6 @@ def _zero_from_carried(orientations, side, along):
     return (1.0 - 2.0 * side) * turn
 
 
-@njit(cache=True)
+@inner_kernel
 def _put(rotations, joint, q):
     rotations[joint, 0], rotations[joint, 1], rotations[joint, 2], rotations[joint, 3] = q

@@ -16,6 +16,7 @@ from behaviours.stance.lower_body import LowerBody
 from engine.body import kinematics
 from engine.body.skeleton import BACK, CLAVICLES, JOINT_COUNT, PELVIS, WAIST
 from engine.maths import quaternion
+from engine.maths.inner_kernel import inner_kernel
 
 
 class Plan(NamedTuple):
@@ -69,7 +70,7 @@ def assemble(body, plan, unknowns, balance_rad, figure):
     return (com[0], com[1])
 
 
-@njit(cache=True)
+@inner_kernel
 def _begin_arms(body, plan, rotations):
     chest = quaternion.multiply(quaternion.multiply(_row(rotations, PELVIS), rotations[WAIST]), rotations[BACK])
     for side in range(2):

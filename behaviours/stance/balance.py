@@ -16,6 +16,7 @@ from behaviours.stance import lower_body
 from behaviours.stance.assembly import assemble
 from engine.body.skeleton import PELVIS
 from engine.maths import quaternion, vector
+from engine.maths.inner_kernel import inner_kernel
 
 # of what the hips move, the centre of mass moves about this share: the start of the search
 SHARE_OF_HIPS = 0.85
@@ -104,7 +105,7 @@ def find_balance(body, plan, unknowns, search, figure):
     return math.hypot(error[0], error[1])
 
 
-@njit(cache=True)
+@inner_kernel
 def _learn(inverse, moved, went):
     """Broyden's update of the inverse: it now takes what the centre of mass did to what the offsets did."""
     guess = (

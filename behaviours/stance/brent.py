@@ -13,6 +13,8 @@ from typing import NamedTuple
 import numpy as np
 from numba import njit
 
+from engine.maths.inner_kernel import inner_kernel
+
 GOLDEN = 0.5 * (3.0 - math.sqrt(5.0))  # share of the larger part that a golden section cuts off
 GROWTH = 1.0 / GOLDEN - 1.0  # each step of the bracketing is this much longer
 
@@ -77,7 +79,7 @@ def best(line):
     return line.numbers[X], line.numbers[FX]
 
 
-@njit(cache=True)
+@inner_kernel
 def _told_up(line, value, tolerance):
     n = line.numbers
     if value < n[FX]:
@@ -88,7 +90,7 @@ def _told_up(line, value, tolerance):
     _try_down(line)
 
 
-@njit(cache=True)
+@inner_kernel
 def _try_down(line):
     n = line.numbers
     n[TRIAL] = max(n[X] - n[REACH], n[LOW])
@@ -103,7 +105,7 @@ def _try_down(line):
         n[STEP] = n[TRIAL] - n[X]
 
 
-@njit(cache=True)
+@inner_kernel
 def _told_down(line, value, tolerance):
     n = line.numbers
     if value < n[FX]:
@@ -115,7 +117,7 @@ def _told_down(line, value, tolerance):
     _bracketed(line, n[V], upper, tolerance)
 
 
-@njit(cache=True)
+@inner_kernel
 def _walk_on(line, value, tolerance):
     """Downhill: the trial becomes the best point; the next one lies farther that way, unless a bound ends it."""
     n = line.numbers
@@ -129,7 +131,7 @@ def _walk_on(line, value, tolerance):
         _bracketed(line, min(n[V], n[X]), max(n[V], n[X]), tolerance)
 
 
-@njit(cache=True)
+@inner_kernel
 def _told_walk(line, value, tolerance):
     n = line.numbers
     if value < n[FX]:
@@ -139,7 +141,7 @@ def _told_walk(line, value, tolerance):
     _bracketed(line, min(n[V], n[W]), max(n[V], n[W]), tolerance)
 
 
-@njit(cache=True)
+@inner_kernel
 def _bracketed(line, low, high, tolerance):
     """A minimum lies in [low, high]: from here on Brent's own method."""
     n = line.numbers
@@ -152,7 +154,7 @@ def _bracketed(line, low, high, tolerance):
     _next_trial(line, tolerance)
 
 
-@njit(cache=True)
+@inner_kernel
 def _next_trial(line, tolerance):
     """The least point of the parabola through the three best points if that is trustworthy, else a golden section."""
     n = line.numbers
@@ -174,7 +176,7 @@ def _next_trial(line, tolerance):
     n[TRIAL] = n[X] + (step if abs(step) >= tolerance else math.copysign(tolerance, step))
 
 
-@njit(cache=True)
+@inner_kernel
 def _parabola(n):
     """The step from the best point to the parabola's least one, and whether to trust it."""
     r = (n[X] - n[W]) * (n[FX] - n[FV])
@@ -189,7 +191,7 @@ def _parabola(n):
     return p / q, True
 
 
-@njit(cache=True)
+@inner_kernel
 def _narrowed(line, value):
     """Moves the ends of the bracket and the three best points."""
     n = line.numbers

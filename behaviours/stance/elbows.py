@@ -17,6 +17,7 @@ from behaviours.stance.arms import reach
 from engine.body import limb_ik, limits
 from engine.body.skeleton import ELBOWS, PARENT, SHOULDERS, WRISTS
 from engine.maths import quaternion, vector
+from engine.maths.inner_kernel import inner_kernel
 
 MARGIN_RAD = math.radians(20.0)
 CROWDED = 5.0  # what a squared radian inside the margin costs against a squared radian of swivel
@@ -42,7 +43,7 @@ def reach_within_limits(body, rotations, positions, orientations, side, target_m
     return miss_m, swivel, strain
 
 
-@njit(cache=True)
+@inner_kernel
 def reach_strained(body, rotations, positions, orientations, side, target_m, swivel_rad):
     """`reach` at a swivel, the arm held at its limits. Returns the miss and the strain."""
     reach(body, rotations, positions, orientations, side, target_m, swivel_rad)
@@ -51,7 +52,7 @@ def reach_strained(body, rotations, positions, orientations, side, target_m, swi
     return miss_m, strain if strain > ROUNDING_RAD else 0.0
 
 
-@njit(cache=True)
+@inner_kernel
 def _least_cost(body, rotations, positions, orientations, side, target_m, wanted_rad, start_rad):
     """The swivel at the bottom of the valley that the search starts in; leaves the arm there. Brent's method."""
     reach(body, rotations, positions, orientations, side, target_m, start_rad)
@@ -82,7 +83,7 @@ def crowding(body, rotations, side):
     return CROWDED * total
 
 
-@njit(cache=True)
+@inner_kernel
 def _easiest_near(body, rotations, positions, orientations, side, target_m, swivel_rad):
     """The swivel of the least strain within a step of one. Golden sections."""
     low, high = swivel_rad - SWIVEL_STEP, swivel_rad + SWIVEL_STEP
@@ -99,7 +100,7 @@ def _easiest_near(body, rotations, positions, orientations, side, target_m, swiv
     return 0.5 * (low + high)
 
 
-@njit(cache=True)
+@inner_kernel
 def _hold_at_limits(body, rotations, positions, orientations, side, target_m):
     """Draws shoulder and elbow back to their limits, in place; returns how far the wrist then is from the target."""
     for joint in (SHOULDERS[side], ELBOWS[side]):
@@ -110,7 +111,7 @@ def _hold_at_limits(body, rotations, positions, orientations, side, target_m):
     return vector.distance(positions[WRISTS[side]], target_m)
 
 
-@njit(cache=True)
+@inner_kernel
 def strain_rad(body, rotations, side):
     """How far shoulder and elbow are beyond their limits: the root of the sum of the squares of what each angle is
     over.
@@ -125,6 +126,6 @@ def strain_rad(body, rotations, side):
     return math.sqrt(total)
 
 
-@njit(cache=True)
+@inner_kernel
 def _put(rotations, joint, q):
     rotations[joint, 0], rotations[joint, 1], rotations[joint, 2], rotations[joint, 3] = q

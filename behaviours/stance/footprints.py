@@ -11,6 +11,7 @@ from numba import njit
 from engine.body import footing
 from engine.body.skeleton import HIPS, TOES
 from engine.maths import quaternion, vector
+from engine.maths.inner_kernel import inner_kernel
 
 # feet of a neutral stance
 TOES_OUT_RAD = math.radians(7.0)
@@ -89,7 +90,7 @@ def _middle(body, ankle_m, foot_turned, toe_rad, balance_x, balance_z):
     return place
 
 
-@njit(cache=True)
+@inner_kernel
 def _middle_of_foot(body, side, ankle_m, foot_turned, toe_rad, balance_z):
     """The place (x, y) of one foot over which a balance of 0, moved ahead by balance_z half feet, stands."""
     toe, sole = body.offset_m[TOES[side]], body.sole_m[side]

@@ -10,6 +10,7 @@ from behaviours import timing
 from engine.body import limits
 from engine.body.skeleton import BACK, HEAD, NECK
 from engine.maths import quaternion, vector
+from engine.maths.inner_kernel import inner_kernel
 
 # the neck's share of a turn of the head; the rest is the head's own (limits: 3 to 1)
 NECK_SHARE = 0.7
@@ -49,7 +50,7 @@ def look(body, rotations, positions, orientations, target_m, weight):
     _look_with(body, rotations, positions, orientations, HEAD, NECK, target_m, rest, weight)
 
 
-@njit(cache=True)
+@inner_kernel
 def direction_angles(direction):
     """(yaw, pitch) of a unit direction: to the left, and up.
 
@@ -62,7 +63,7 @@ def direction_angles(direction):
     return (clear * yaw, math.atan2(direction[2], level))
 
 
-@njit(cache=True)
+@inner_kernel
 def _look_with(body, rotations, positions, orientations, joint, parent, target_m, rest, weight):
     """Turns one joint until the face points as far from its rest angles towards the target as the weight says."""
     chest = orientations[BACK]
@@ -97,6 +98,6 @@ def _place(body, rotations, positions, orientations, joint, parent):
     _put(orientations, joint, quaternion.multiply(orientations[parent], rotations[joint]))
 
 
-@njit(cache=True)
+@inner_kernel
 def _put(rows, joint, q):
     rows[joint, 0], rows[joint, 1], rows[joint, 2], rows[joint, 3] = q

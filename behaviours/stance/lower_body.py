@@ -17,6 +17,7 @@ from numba import njit
 from behaviours.stance import frame
 from engine.body.skeleton import ANKLES, HIPS, KNEES, PELVIS, TOES
 from engine.maths import quaternion, vector
+from engine.maths.inner_kernel import inner_kernel
 
 # what gives where pelvis and knees cannot both be had
 TRADE_OFFS = ("knees_exact", "pelvis_exact")
@@ -113,12 +114,12 @@ def hips_of(asked, balance_rad):
     return other, root_hip
 
 
-@njit(cache=True)
+@inner_kernel
 def _bone(body, joint):
     return vector.length(body.offset_m[joint])
 
 
-@njit(cache=True)
+@inner_kernel
 def pelvis_turned(body, left_hip, right_hip, pelvis_x_rad):
     """The pelvis's orientation: along the hip vector, its up as near to the world's as that allows, then tipped by
     pelvis X.
@@ -132,7 +133,7 @@ def pelvis_turned(body, left_hip, right_hip, pelvis_x_rad):
     return quaternion.multiply(level, quaternion.between(vector.unit(line, (0.0, 1.0, 0.0)), (0.0, 1.0, 0.0)))
 
 
-@njit(cache=True)
+@inner_kernel
 def fit_leg(body, side, pelvis, hip, ankle, foot, toe_rad, rotations):
     """Hip, knee, ankle and toe rotations of one leg between two points, written to rotations (J, 4).
 
@@ -155,19 +156,19 @@ def fit_leg(body, side, pelvis, hip, ankle, foot, toe_rad, rotations):
     _put(rotations, TOES[side], quaternion.about_y(-toe_rad))
 
 
-@njit(cache=True)
+@inner_kernel
 def _cosine(a, b, opposite):
     """The cosine of the angle between the sides a and b of a triangle."""
     return min(max((a * a + b * b - opposite * opposite) / (2.0 * a * b), -1.0), 1.0)
 
 
-@njit(cache=True)
+@inner_kernel
 def _about_y(cosine):
     """The turn about Y by the angle in [0, pi] of a cosine, without the angle."""
     return (math.sqrt(0.5 * (1.0 + cosine)), 0.0, math.sqrt(0.5 * (1.0 - cosine)), 0.0)
 
 
-@njit(cache=True)
+@inner_kernel
 def place_pelvis(body, asked, balance_rad):
     """Where the pelvis is for what is asked (LowerBody): its place (3,), its orientation, both hips (left, right);
     world.
@@ -190,6 +191,6 @@ def solve_lower_body(body, asked, balance_rad, root_m, rotations):
         fit_leg(body, side, pelvis, hip, asked.ankle_m[side], asked.foot_turned[side], asked.toe_rad[side], rotations)
 
 
-@njit(cache=True)
+@inner_kernel
 def _put(rotations, joint, q):
     rotations[joint, 0], rotations[joint, 1], rotations[joint, 2], rotations[joint, 3] = q

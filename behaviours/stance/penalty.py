@@ -13,6 +13,8 @@ from typing import NamedTuple
 import numpy as np
 from numba import njit
 
+from engine.maths.inner_kernel import inner_kernel
+
 
 class Side(NamedTuple):
     """One side of a penalty, measured away from the wanted value, in the value's own unit."""
@@ -39,7 +41,7 @@ def row(wanted: float, low: Side, high: Side | None = None) -> np.ndarray:
     return np.array([wanted, *low, *high], float)
 
 
-@njit(cache=True)
+@inner_kernel
 def hermite(start, start_slope, end, end_slope, width, t):
     """Cubic Hermite interpolation over a stretch of a width: value and slope at both ends, t in [0, 1] along it."""
     t2 = t * t

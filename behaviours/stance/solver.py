@@ -23,6 +23,7 @@ from behaviours.stance.penalty import penalty_of
 from behaviours.stance.yielding import give_way
 from engine.body.skeleton import SHOULDERS
 from engine.maths import vector
+from engine.maths.inner_kernel import inner_kernel
 
 WITHIN = 1e-6  # the objective that counts as zero
 STOPS_IMPROVING = 0.03  # a cycle that gains less than this share of the objective is the last one
@@ -57,7 +58,7 @@ class Outcome(NamedTuple):
     balance_error_m: float
 
 
-@njit(cache=True)
+@inner_kernel
 def shape_penalty(wishes, unknowns):
     """The part of eq. 5 that the unknowns decide alone."""
     total = 0.0
@@ -66,7 +67,7 @@ def shape_penalty(wishes, unknowns):
     return total
 
 
-@njit(cache=True)
+@inner_kernel
 def world_penalty(plan, wishes, figure, way):
     """The part of eq. 5 that the figure decides, carried where its balance takes it: wrist targets and further
     places.
@@ -94,12 +95,12 @@ def objective(body, plan, wishes, unknowns, search, figure):
     return total + world_penalty(plan, wishes, figure, balance.settle(body, plan, search, com_m, figure))
 
 
-@njit(cache=True)
+@inner_kernel
 def _world_matters(plan, wishes):
     return plan.reaching[0] or plan.reaching[1] or len(wishes.place_joint) > 0
 
 
-@njit(cache=True)
+@inner_kernel
 def minimise_line(body, plan, wishes, unknowns, u, value, bounds, search, figure, line):
     """One line search, along one unknown, in place. Returns the objective there and the evaluations."""
     brent.begin(line, unknowns[u], value, STEPS[u], bounds[u, 0], bounds[u, 1])

@@ -13,6 +13,7 @@ from numba import njit
 
 from behaviours.stance import frame
 from engine.body.skeleton import BACK, CLAVICLES, HEAD, NECK, WAIST
+from engine.maths.inner_kernel import inner_kernel
 
 SHAPE_CLASSES = ("Straight", "LargeS", "LargeC", "SmallS", "SmallC")
 STRAIGHT, LARGE_S, LARGE_C, SMALL_S, SMALL_C = SHAPE_CLASSES
@@ -38,7 +39,7 @@ UNKNOWNS = ("coronal", "sagittal", "transverse", "collar_y", "collar_z", "abdome
 CORONAL, SAGITTAL, TRANSVERSE, COLLAR_Y, COLLAR_Z, ABDOMEN_X = range(len(UNKNOWNS))
 
 
-@njit(cache=True)
+@inner_kernel
 def spine_angles(classes, unknowns, joint):
     """The paper's angles (X, Y, Z) of one joint of SPINE. classes: rows of WEIGHTS for the sagittal and coronal
     plane.
@@ -50,7 +51,7 @@ def spine_angles(classes, unknowns, joint):
     return (x, unknowns[TRANSVERSE] / len(SPINE), z)
 
 
-@njit(cache=True)
+@inner_kernel
 def collar_angles(opposed, unknowns, side):
     """Y and Z of one collar bone. Aligned: + is both shoulders back, both up; opposed: + turns left, lifts the left
     one.
@@ -79,7 +80,7 @@ def shape_torso(body, classes, opposed, unknowns, rotations):
         _put(rotations, CLAVICLES[side], frame.rotation(0.0, y, z))
 
 
-@njit(cache=True)
+@inner_kernel
 def _put(rotations, joint, q):
     rotations[joint, 0], rotations[joint, 1], rotations[joint, 2], rotations[joint, 3] = q
 
@@ -110,7 +111,7 @@ def amplitude_bounds(body, classes, opposed):
     return bounds
 
 
-@njit(cache=True)
+@inner_kernel
 def _narrow(bounds, unknown, weight, low, high):
     if weight == 0.0:
         return

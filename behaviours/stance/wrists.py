@@ -13,6 +13,7 @@ from behaviours.stance.assembly import assemble
 from engine.body import kinematics
 from engine.body.skeleton import SHOULDERS
 from engine.maths import vector
+from engine.maths.inner_kernel import inner_kernel
 
 # rows of the (3, 2) array of wrists: how far each is from its target, metres; the swivel taken; the strain, radians
 MISS, SWIVEL, STRAIN = range(3)
@@ -31,7 +32,7 @@ def reach_distance_m(plan, positions, side):
     return vector.distance(positions[SHOULDERS[side]], plan.wrist_m[side])
 
 
-@njit(cache=True)
+@inner_kernel
 def distance_lack_m(away_m, arm_m):
     """How much too far or too near a target is for an arm of that length; negative where there is room to spare."""
     return max(away_m - COMFORTABLE * arm_m, NEAREST * arm_m - away_m)
@@ -57,7 +58,7 @@ def finish(body, plan, unknowns, search, figure, wrists):
     return error_m
 
 
-@njit(cache=True)
+@inner_kernel
 def reach_targets(body, plan, figure, wrists, stay):
     """Puts the wrists that have one on their targets, in place, and writes what came of it to `wrists` (3, 2)."""
     for side in range(2):
@@ -93,7 +94,7 @@ def greatest_lack_m(body, plan, figure, wrists):
     return worst
 
 
-@njit(cache=True)
+@inner_kernel
 def lacks_at(body, plan, unknowns, search, figure, wrists, lacks):
     """Writes (2,) what each wrist lacks with these unknowns, metres, negative where there is room to spare. Leaves
     the arms unfinished.

@@ -20,6 +20,7 @@ from behaviours.stance.assembly import Figure, Plan
 from behaviours.stance.balance import BalanceSearch
 from behaviours.stance.wrists import finish, lacks_at
 from engine.body.skeleton import Body
+from engine.maths.inner_kernel import inner_kernel
 
 LACK_WEIGHT = 1e4  # what a metre of lack counts against a wish moved to its far point
 MOST_STEPS = 6  # of Gauss-Newton
@@ -55,7 +56,7 @@ def give_way(body, plan, wishes, unknowns, bounds, search, figure, wrists):
     return steps, evaluations, finish(body, plan, unknowns, search, figure, wrists)
 
 
-@njit(cache=True)
+@inner_kernel
 def _newton(task, unknowns):
     """Gauss-Newton steps, each shortened until it gains. Returns (steps, evaluations)."""
     before, step = unknowns.copy(), np.empty(len(unknowns))
@@ -84,7 +85,7 @@ def _newton(task, unknowns):
     return MOST_STEPS, evaluations
 
 
-@njit(cache=True)
+@inner_kernel
 def _to_the_bottom(task, unknowns):
     """Goes on to the very minimum, in place, by quasi-Newton: where two reaches fight each other, Gauss-Newton does not
     get there, and where it stops would depend on rounding. Returns the evaluations.
@@ -99,7 +100,7 @@ def _to_the_bottom(task, unknowns):
     return search.counts[minimise.EVALUATIONS]
 
 
-@njit(cache=True)
+@inner_kernel
 def _weigh(task, unknowns, lacks, anew):
     """What is minimised; writes what the wrists lack. anew: from a figure finished and balanced with these unknowns."""
     if anew:
@@ -111,7 +112,7 @@ def _weigh(task, unknowns, lacks, anew):
     return total
 
 
-@njit(cache=True)
+@inner_kernel
 def _slopes_at(task, unknowns, lacks, slopes):
     """Writes (2, 6) how what is lacking (2,) changes with each unknown. Returns the evaluations."""
     there = np.empty(2)
@@ -127,7 +128,7 @@ def _slopes_at(task, unknowns, lacks, slopes):
     return len(unknowns)
 
 
-@njit(cache=True)
+@inner_kernel
 def _slope_along(task, unknowns, lacks, slopes, step):
     """How fast what is minimised falls at the start of a step (negative)."""
     slope = 0.0
@@ -163,7 +164,7 @@ def least_squares_step(minimum, unknowns, stiffness, lacks, slopes, bounds, step
             return
 
 
-@njit(cache=True)
+@inner_kernel
 def _first_to_stop(unknowns, bounds, free, step):
     """The free unknown that a step would take past its bound earliest on the way; -1 when none."""
     first, earliest = -1, 1.0
@@ -175,7 +176,7 @@ def _first_to_stop(unknowns, bounds, free, step):
     return first
 
 
-@njit(cache=True)
+@inner_kernel
 def _sum_over(free, slopes, step):
     total = 0.0
     for u in range(len(step)):
@@ -184,7 +185,7 @@ def _sum_over(free, slopes, step):
     return total
 
 
-@njit(cache=True)
+@inner_kernel
 def _free_step(minimum, unknowns, stiffness, left, slopes, free, counts, step):
     """The step of the unknowns that are free: with two conditions on diagonal stiffness, two equations (Woodbury)."""
     a, b, d = 1.0 / LACK_WEIGHT, 0.0, 1.0 / LACK_WEIGHT

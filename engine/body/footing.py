@@ -9,6 +9,7 @@ from numba import njit
 from engine.body import support
 from engine.body.skeleton import ANKLES, HIPS, KNEES, TOES
 from engine.maths import quaternion, vector
+from engine.maths.inner_kernel import inner_kernel
 
 LEG_SOFT_M = 0.006  # a leg straightens over this length, instead of snapping straight
 
@@ -41,7 +42,7 @@ def leg_length_m(body, side):
     return vector.length(body.offset_m[KNEES[side]]) + vector.length(body.offset_m[ANKLES[side]])
 
 
-@njit(cache=True)
+@inner_kernel
 def drop_to_reach(body, hip_m, ankle_m, side):
     """How far the hip has to sink to keep the ankle in the leg's reach, metres.
 

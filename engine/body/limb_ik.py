@@ -14,6 +14,7 @@ from numba import njit
 from engine.body.skeleton import ANKLES, CLAVICLES, ELBOWS, HIPS, KNEES, PELVIS, SHOULDERS, TOES, WRISTS
 from engine.body.two_bones import KEEP, SOFT_REACH_M, carried_zero, solve_limb, swivel_of
 from engine.maths import quaternion, vector
+from engine.maths.inner_kernel import inner_kernel
 
 __all__ = [
     "CARRIED", "DOWN", "KEEP", "SOFT_REACH_M", "apply_arm", "apply_leg", "arm_onto", "arm_swivel", "arm_zero",
@@ -25,7 +26,7 @@ __all__ = [
 DOWN, CARRIED = 0, 1
 
 
-@njit(cache=True)
+@inner_kernel
 def place_children(offset_m, rotations, positions, orientations, joint, child):
     """Forward kinematics of one joint from its parent: writes the child's position and orientation."""
     turned = quaternion.at(orientations, joint)
@@ -34,7 +35,7 @@ def place_children(offset_m, rotations, positions, orientations, joint, child):
     quaternion.put(orientations, child, quaternion.multiply(turned, quaternion.at(rotations, child)))
 
 
-@njit(cache=True)
+@inner_kernel
 def turn_end_to(offset_m, rotations, positions, orientations, parent, joint, world_orientation, child):
     """Gives a wrist or ankle a world orientation: its local rotation, and the toe (child, or -1) that hangs on it."""
     turned = quaternion.normalise(world_orientation)
@@ -56,7 +57,7 @@ def _apply(offset_m, rotations, positions, orientations, parent, upper, middle, 
     place_children(offset_m, rotations, positions, orientations, middle, end)
 
 
-@njit(cache=True)
+@inner_kernel
 def _turn_local(rotations, orientations, parent, joint, world_turn):
     """local = conj(P) T P * local: a world turn T about the joint, seen from its parent. No turn, no change."""
     outer = quaternion.at(orientations, parent)
@@ -65,13 +66,13 @@ def _turn_local(rotations, orientations, parent, joint, world_turn):
     quaternion.put(rotations, joint, quaternion.normalise(local))
 
 
-@njit(cache=True)
+@inner_kernel
 def elbow_axis(orientations, side):
     """The elbow's world axis of flexion: -Y of the upper arm."""
     return quaternion.rotate(quaternion.at(orientations, SHOULDERS[side]), (0.0, -1.0, 0.0))
 
 
-@njit(cache=True)
+@inner_kernel
 def knee_axis(orientations, side):
     """The knee's world axis of flexion: +Y of the thigh."""
     return quaternion.rotate(quaternion.at(orientations, HIPS[side]), (0.0, 1.0, 0.0))
@@ -104,7 +105,7 @@ def knee_zero(orientations, n):
     return carried_zero(quaternion.rotate(pelvis, (0.0, 0.0, -1.0)), quaternion.rotate(pelvis, (1.0, 0.0, 0.0)), n)
 
 
-@njit(cache=True)
+@inner_kernel
 def side_sign(side):
     """+1 left, -1 right."""
     return 1.0 - 2.0 * side
@@ -148,7 +149,7 @@ def apply_arm(
     )  # fmt: skip
 
 
-@njit(cache=True)
+@inner_kernel
 def arm_onto(offset_m, greatest_rad, rotations, positions, orientations, side, target, swivel_rad, reference, soft_m):
     """apply_arm for hot kernels that cannot hand a whole body on; greatest_rad is the most the elbow flexes."""
     shoulder, elbow, wrist = SHOULDERS[side], ELBOWS[side], WRISTS[side]
@@ -176,7 +177,7 @@ def apply_leg(
     )  # fmt: skip
 
 
-@njit(cache=True)
+@inner_kernel
 def leg_onto(
     offset_m, greatest_rad, rotations, positions, orientations, side, target, foot_orientation, swivel_rad, soft_m
 ):
@@ -194,7 +195,7 @@ def leg_onto(
     return miss_m
 
 
-@njit(cache=True)
+@inner_kernel
 def turn_hand_to(body, rotations, positions, orientations, side, world_orientation):
     """Gives a hand a world orientation, in place."""
     turn_end_to(body.offset_m, rotations, positions, orientations, ELBOWS[side], WRISTS[side], world_orientation, -1)

@@ -21,6 +21,7 @@ from numba import njit
 
 from engine.body.skeleton import JOINT_COUNT, MIRRORED, joint_index
 from engine.maths import quaternion
+from engine.maths.inner_kernel import inner_kernel
 
 # joint: ((low, high) of swing X, swing Y, twist Z) in degrees; left side given, the right one is its mirror image.
 # Positive Y bows the trunk, flexes the knee and points the foot; negative Y lifts arm and thigh forward and flexes the
@@ -121,7 +122,7 @@ def clamp_pose(body, reference, rotations):
         rotations[j, 0], rotations[j, 1], rotations[j, 2], rotations[j, 3] = q
 
 
-@njit(cache=True)
+@inner_kernel
 def _overrun(low, high, value):
     """The farthest that a component lies outside; 0 when all are inside."""
     worst = 0.0

@@ -13,6 +13,7 @@ from numba import njit
 
 from engine.body.skeleton import ANKLES, SOLE_POINTS, TOES
 from engine.maths import quaternion, vector
+from engine.maths.inner_kernel import inner_kernel
 
 CONTACT_M = 0.03  # a sole point this much above its foot's lowest one still bears: flesh gives way, and clips are noisy
 _FIRST_TOE_POINT = SOLE_POINTS.index("toe_inner")
@@ -31,7 +32,7 @@ def sole_points(body, positions, orientations):
     return out
 
 
-@njit(cache=True)
+@inner_kernel
 def bearing(points):
     """(6,) of one foot's sole points (6, 3): which bear when the foot is planted."""
     lowest = math.inf
@@ -59,7 +60,7 @@ def polygon_of(body, positions, orientations, planted):
     return hull(ground[:count])
 
 
-@njit(cache=True)
+@inner_kernel
 def _sorted_by_x(points):
     """Rows by X, then Y, equal ones once."""
     rows = np.empty((len(points), 2))
@@ -84,7 +85,7 @@ def _turn(a, b, c):
     return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])
 
 
-@njit(cache=True)
+@inner_kernel
 def _extend(chain, first, m, point):
     """Adds a point to the chain, dropping those since `first` that are corners no longer. Returns its new length."""
     while m >= first + 2 and _turn(chain[m - 2], chain[m - 1], point) <= 0.0:
@@ -110,7 +111,7 @@ def hull(points):
     return chain[: m - 1]
 
 
-@njit(cache=True)
+@inner_kernel
 def _on_segment(a, b, p):
     """The point of segment a b that is nearest to p."""
     dx, dy = b[0] - a[0], b[1] - a[1]
@@ -121,7 +122,7 @@ def _on_segment(a, b, p):
     return (a[0] + t * dx, a[1] + t * dy)
 
 
-@njit(cache=True)
+@inner_kernel
 def nearest_on_edge(polygon, point):
     """The point of the polygon's edge that is nearest to a point (2,); ValueError for an empty polygon."""
     if len(polygon) == 0:

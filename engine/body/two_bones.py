@@ -19,12 +19,13 @@ import math
 from numba import njit
 
 from engine.maths import quaternion, vector
+from engine.maths.inner_kernel import inner_kernel
 
 SOFT_REACH_M = 0.01  # spec A4: reach saturates over 1 cm
 KEEP = math.nan  # as swivel: leave the mid joint where the least swing leaves it
 
 
-@njit(cache=True)
+@inner_kernel
 def hinge_of(root, mid, end, joint_axis):
     """The unit axis about which the limb bends now, as flexion is positive; world.
 
@@ -38,7 +39,7 @@ def hinge_of(root, mid, end, joint_axis):
     return vector.unit(vector.mix(joint_axis, vector.unit(normal, joint_axis), t * t * (3.0 - 2.0 * t)), joint_axis)
 
 
-@njit(cache=True)
+@inner_kernel
 def swivel_of(root, mid, end, joint_axis, zero, sign):
     """The swivel angle, radians in [-pi, pi]: from the direction `zero` (any length, projected) to the mid joint.
 
@@ -50,7 +51,7 @@ def swivel_of(root, mid, end, joint_axis, zero, sign):
     return sign * math.atan2(vector.inner(n, around), vector.inner(along, pointing))
 
 
-@njit(cache=True)
+@inner_kernel
 def carried_zero(resting, resting_zero, n):
     """The reference direction for a limb along unit n, carried there from its resting direction by the least rotation.
 
@@ -79,7 +80,7 @@ def soft_reach(wanted_m, present_m, full_m, soft_m):
     return start + width * t * (1.0 - t) * (1.0 - t) + soft_m * t * t * (3.0 - 2.0 * t)
 
 
-@njit(cache=True)
+@inner_kernel
 def _flexion_towards(wanted_rad, present_rad):
     """The flexion to take for one wanted in [0, pi]: never backwards, but for a clip's own overstretched joint.
 
@@ -95,7 +96,7 @@ def _flexion_towards(wanted_rad, present_rad):
     return wanted_rad - 2.0 * p * (1.0 - t * t * (3.0 - 2.0 * t))
 
 
-@njit(cache=True)
+@inner_kernel
 def _bend(u, v, hinge, target_m, greatest_rad, soft_m):
     """The angle to turn v about the hinge by, so that |u + v| becomes the target distance (cosine law, any hinge)."""
     present_m = vector.length(vector.add(u, v))
@@ -113,7 +114,7 @@ def _bend(u, v, hinge, target_m, greatest_rad, soft_m):
     return _flexion_towards(wanted, present) - present
 
 
-@njit(cache=True)
+@inner_kernel
 def solve_limb(root, mid, end, joint_axis, target, zero, swivel_rad, sign, greatest_rad, soft_m):
     """Puts the limb's end on a target and its mid joint at a swivel. World, metres, radians.
 

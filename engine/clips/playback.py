@@ -9,6 +9,7 @@ from numba import njit
 
 from engine.body.skeleton import JOINT_COUNT, Pose
 from engine.clips.clip import Clip
+from engine.maths.inner_kernel import inner_kernel
 
 
 def sample(clip: Clip, time_s: float) -> Pose:
@@ -72,7 +73,7 @@ def sample_into(root_m, rotations, fps, loop, time_s, out_root_m, out_rotations)
         _carry_on(x, y, yaw, out_root_m, out_rotations)
 
 
-@njit(cache=True)
+@inner_kernel
 def _between_frames(root_m, rotations, frame, out_root_m, out_rotations):
     """Catmull-Rom through the four frames around, so that velocities are continuous too: root and quaternion components
     alike.
@@ -102,7 +103,7 @@ def _between_frames(root_m, rotations, frame, out_root_m, out_rotations):
             )
 
 
-@njit(cache=True)
+@inner_kernel
 def _fade_in(root_m, rotations, loop, incoming, weight, out_root_m, out_rotations):
     """Mixes the motion that leads up to the loop's first frame, carried on by one round, into what is there."""
     other_root_m, other = np.empty(3), np.empty_like(out_rotations)
@@ -119,7 +120,7 @@ def _fade_in(root_m, rotations, loop, incoming, weight, out_root_m, out_rotation
             out_rotations[j, i] += weight * (side * other[j, i] - out_rotations[j, i])
 
 
-@njit(cache=True)
+@inner_kernel
 def _normalise(rotations):
     for j in range(rotations.shape[0]):
         q = rotations[j]
@@ -128,7 +129,7 @@ def _normalise(rotations):
             q[i] *= scale
 
 
-@njit(cache=True)
+@inner_kernel
 def _carry_on(x, y, yaw, root_m, rotations):
     """Turns a pose about the vertical through the origin and moves it, in place."""
     c, s = math.cos(yaw), math.sin(yaw)

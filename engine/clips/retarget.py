@@ -21,6 +21,7 @@ from engine.body.skeleton import ANKLES, HIPS, JOINT_COUNT, KNEES, TOES, Body, P
 from engine.body.support import sole_points
 from engine.clips.clip import Clip
 from engine.maths import quaternion
+from engine.maths.inner_kernel import inner_kernel
 
 KNEELING, CROUCHING = 0.12, 0.35  # a knee's height in shares of the leg: it bears weight, or the foot alone does
 
@@ -85,7 +86,7 @@ def retarget_frames(old, new, old_root_m, root_m, rotations):
         put_feet(new, ankles_m, root_m[f], rotations[f], at, turned)
 
 
-@njit(cache=True)
+@inner_kernel
 def ankle_goals(old, new, scale, old_at, old_turned, at, turned, ankles_m):
     """Where the new ankles have to be, (2, 3): ball over its scaled place, lowest sole point at its scaled height.
 
@@ -106,7 +107,7 @@ def ankle_goals(old, new, scale, old_at, old_turned, at, turned, ankles_m):
             ankles_m[side, k] = at[ankle, k] + up * up * (3.0 - 2.0 * up) * shift[k]
 
 
-@njit(cache=True)
+@inner_kernel
 def put_feet(body, ankles_m, root_m, rotations, positions, orientations):
     """Leg IK of both legs onto their ankle goals, feet turned as they are; the pelvis sinks for a leg too short."""
     drop = 0.0

@@ -6,6 +6,8 @@ import math
 
 from numba import njit
 
+from engine.maths.inner_kernel import inner_kernel
+
 GRAVITY_MPS2 = (0.0, 0.0, -9.80665)
 AIR_KGPM3 = 1.204  # at 20 degrees
 LONGEST_STEP_S = 1.0 / 120.0
@@ -27,7 +29,7 @@ def longest_past_s(speed_mps, drag):
     return 1.0 / (drag * speed_mps) if drag * speed_mps > 0.0 else math.inf
 
 
-@njit(cache=True)
+@inner_kernel
 def _drift(x, y, z, u, v, w, drag, h):
     """Exact flight without gravity: speed s / (1 + k s h), way ln(1 + k s h) / k, straight on."""
     loss = drag * math.sqrt(u * u + v * v + w * w) * h

@@ -11,6 +11,8 @@ import math
 
 from numba import njit
 
+from engine.maths.inner_kernel import inner_kernel
+
 IDENTITY = (1.0, 0.0, 0.0, 0.0)
 
 
@@ -147,7 +149,7 @@ def between(u, v):
     return normalise((w, u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]))
 
 
-@njit(cache=True)
+@inner_kernel
 def from_columns(x, y, z):
     """The orientation whose axes, seen from outside, are the orthonormal right-handed x, y, z (Shepperd 1978)."""
     trace = x[0] + y[1] + z[2]

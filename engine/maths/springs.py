@@ -11,6 +11,7 @@ import math
 from numba import njit
 
 from engine.maths import quaternion
+from engine.maths.inner_kernel import inner_kernel
 
 
 @njit(cache=True)
@@ -48,7 +49,7 @@ def damped(value, velocity, goal, frequency_hz, damping_ratio, dt_s):
     return goal + swing, fade * ringing * (b * c - offset * s) - z * w * swing
 
 
-@njit(cache=True)
+@inner_kernel
 def critical3(value, velocity, goal, half_life_s, dt_s):
     """`critical` for three-vectors."""
     x, u = critical(value[0], velocity[0], goal[0], half_life_s, dt_s)

@@ -17,6 +17,7 @@ from numba import njit
 
 from engine.body.capsules import CAPSULES, Capsules, capsules_at
 from engine.maths import quaternion, shapes, vector
+from engine.maths.inner_kernel import inner_kernel
 from engine.physics import ragdoll, stops
 from engine.physics.model import RagdollModel
 from engine.physics.ragdoll import Push
@@ -241,7 +242,7 @@ def contact_impulse(gives, gap_velocity, normal, restitution, friction):
     return _with_friction(gives, u, n, way, low, wanted_n)[0]
 
 
-@njit(cache=True)
+@inner_kernel
 def _with_friction(gives, u, n, way, ratio, wanted_n):
     """The impulse along n + ratio * way that changes the normal velocity as wanted, and the kinetic energy it makes."""
     towards = vector.along(n, way, ratio)
@@ -258,7 +259,7 @@ def _times(a, v):
     return (vector.inner(a[0], v), vector.inner(a[1], v), vector.inner(a[2], v))
 
 
-@njit(cache=True)
+@inner_kernel
 def _solve3(a, b):
     """a x = b for a symmetric positive (3, 3), by cross products (Cramer's rule)."""
     r0, r1, r2 = (a[0, 0], a[0, 1], a[0, 2]), (a[1, 0], a[1, 1], a[1, 2]), (a[2, 0], a[2, 1], a[2, 2])

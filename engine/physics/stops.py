@@ -25,6 +25,7 @@ from engine.body.capsules import CAPSULES, capsules_at
 from engine.body.limits import components
 from engine.body.skeleton import JOINT_COUNT, PARENT
 from engine.maths import quaternion, shapes, vector
+from engine.maths.inner_kernel import inner_kernel
 from engine.physics.tracking import world_frames
 
 EASE_S = 0.006
@@ -150,7 +151,7 @@ def braced(rows, answers, changes):
                 change[k] -= answers[a, k] * rate
 
 
-@njit(cache=True)
+@inner_kernel
 def _without(row, answer, other_row, other_answer):
     """Takes out of a row, and its answer, what another of unit length has of it. In place."""
     share = _rate(row, other_answer)
@@ -235,7 +236,7 @@ def _rate(row, qvel):
     return rate
 
 
-@njit(cache=True)
+@inner_kernel
 def _add_place(parent, positions, orientations, joint, place, normal, sign, row):
     """Adds to a row how fast a place on a part moves along a normal, per generalised velocity."""
     j = joint
@@ -249,7 +250,7 @@ def _add_place(parent, positions, orientations, joint, place, normal, sign, row)
         row[axis] += sign * normal[axis]
 
 
-@njit(cache=True)
+@inner_kernel
 def _limits_of(j, qpos, qvel, low, high, target, ease_s, limp, farthest_rad, rows, least, count):
     """Adds the rows of one joint's limits, those that the target oversteps moved out to it: all that are not far, if
     one is broken, since what holds that one turns into the others."""
@@ -317,7 +318,7 @@ def impulses(rows, answers, least, qvel):
     return impulse
 
 
-@njit(cache=True)
+@inner_kernel
 def _gives(rows, answers):
     """(N, N) how the rates of the rows answer to impulses along them: rows M^-1 rows^T."""
     out = np.empty((len(rows), len(rows)))

@@ -22,6 +22,7 @@ from numba import njit
 from engine.body.limits import clamp_keeping
 from engine.body.skeleton import JOINT_COUNT
 from engine.maths import quaternion, vector
+from engine.maths.inner_kernel import inner_kernel
 
 SERVO_HZ = 3.5  # at strength 1: settles in about 0.1 s, as braced muscle with its reflexes does
 LIGAMENT_HZ = 8.0
@@ -59,13 +60,13 @@ def drive(qpos, qvel, target, low, high, inertia, most_nm, strength, damping, h,
             armature[v + axis] = h * slope
 
 
-@njit(cache=True)
+@inner_kernel
 def _towards(q, goal):
     """The rotation from q to the goal, as a rotation vector in q's own frame."""
     return quaternion.to_rotation_vector(quaternion.multiply(quaternion.conjugate(q), goal))
 
 
-@njit(cache=True)
+@inner_kernel
 def _servo_gains(q, spin, goal, stiffness, most_nm, damping):
     """Stiffness and damping, both weakened alike where together they would ask for more than the greatest torque."""
     e = _towards(q, goal)
