@@ -21,6 +21,7 @@ from demos.window.stance_desk import FARTHEST_M, POINTS, StanceDesk, in_groups
 from engine.core.debug_draw import DebugDraw
 from engine.core.errors import BraceError
 from engine.maths import quaternion, rotations
+from engine.render.camera import ray_through
 from engine.render.events import LEFT_BUTTON, Event, MouseButton, MouseMove
 from engine.render.scene import Balance, Colour, Figure, Scene
 
@@ -31,7 +32,7 @@ if TYPE_CHECKING:
 STANCE: Colour = (0.62, 0.70, 0.80)
 DOT_COLOURS = {"object_m": (0.85, 0.12, 0.10), "reach_left_m": (0.13, 0.46, 0.38), "reach_right_m": (0.13, 0.46, 0.38)}
 DOT_M, GRIP_M = 0.045, 0.10  # radius of a dot, and how near to it the cursor has to look to grip it
-BESIDE_M = 1.3  # to the left of the character
+BESIDE_M = 1.2  # to the right of the character, as it is seen
 LABELS = {"solve_abdomen": "Abdomen helps", "collar_y": "Collars, Y", "collar_z": "Collars, Z"}
 
 
@@ -215,18 +216,18 @@ class StancePanel:
         if self._place is None:
             positions, orientations = session.frames(session.row)
             heading = float(quaternion.heading(orientations[0]))
-            left = np.array([-math.sin(heading), math.cos(heading)])
-            self._place = (positions[0, :2] + BESIDE_M * left, heading)
+            right, _, _ = session.camera.axes()
+            self._place = (positions[0, :2] + BESIDE_M * right[:2], heading)
 
     def handle(self, event: Event, session: Session) -> bool:
         """A dot is gripped, dragged in the plane of the picture, and let go."""
         if self._place is None:
             return False
         if isinstance(event, MouseButton) and event.button == LEFT_BUTTON and not event.modifiers:
-            was, self._gripped = self._gripped, self._under_cursor(session) if event.pressed else None
+            was, self._gripped = self._gripped, self._under(event, session) if event.pressed else None
             return self._gripped is not None or (was is not None and not event.pressed)
         if isinstance(event, MouseMove) and self._gripped is not None:
-            eye, way = (np.asarray(part) for part in session.ray())
+            eye, way = ray_of(event, session)
             _, _, forward = session.camera.axes()
             here = self.world_of(self.desk.points_m[self._gripped])
             depth = float((here - eye) @ forward)
@@ -234,9 +235,9 @@ class StancePanel:
             return True
         return False
 
-    def _under_cursor(self, session: Session) -> str | None:
-        """The point whose dot the cursor looks at, the nearest if there are several."""
-        eye, way = (np.asarray(part) for part in session.ray())
+    def _under(self, event: MouseButton, session: Session) -> str | None:
+        """The point whose dot was pressed on, the nearest if there are several."""
+        eye, way = ray_of(event, session)
         found: list[tuple[float, str]] = []
         for name in POINTS:
             if self.desk.used[name]:
@@ -259,3 +260,9 @@ class StancePanel:
             self.desk.change_intensity(float(intensity))
         if isinstance(kept.get("file"), str):
             self.file = kept["file"]
+
+
+def ray_of(event: MouseButton | MouseMove, session: Session) -> tuple[np.ndarray, np.ndarray]:
+    """Where an event looks: the cursor may have gone on since, within the same frame."""
+    eye, way = ray_through(session.camera, (event.x_px, event.y_px), session.size_px)
+    return np.asarray(eye), np.asarray(way)

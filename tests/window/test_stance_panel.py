@@ -130,7 +130,7 @@ def pixel_of(panel, session, name):
 
 
 def press(panel, session, pressed, xy):
-    session.cursor_px = xy
+    session.cursor_px = (0.0, 0.0)  # the cursor has gone on since
     return panel.handle(MouseButton(LEFT_BUTTON, pressed, *xy), session)
 
 
@@ -140,9 +140,9 @@ def test_the_object_is_dragged_in_the_picture(panel, session):
     start = panel.world_of(panel.desk.points_m["object_m"])
     at = pixel_of(panel, session, "object_m")
     assert press(panel, session, True, at)
-    session.cursor_px = (at[0] - 60.0, at[1] - 25.0)
-    assert panel.handle(MouseMove(*session.cursor_px, -60.0, -25.0), session)
-    assert press(panel, session, False, session.cursor_px)
+    there = (at[0] - 60.0, at[1] - 25.0)
+    assert panel.handle(MouseMove(*there, -60.0, -25.0), session)
+    assert press(panel, session, False, there)
     assert pixel_of(panel, session, "object_m") == pytest.approx((at[0] - 60.0, at[1] - 25.0), abs=1.0)
     _, _, forward = session.camera.axes()
     assert (panel.world_of(panel.desk.points_m["object_m"]) - start) @ forward == pytest.approx(0.0, abs=1e-6)
