@@ -10,6 +10,7 @@ from __future__ import annotations
 import contextlib
 import re
 import sys
+from collections.abc import Callable
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
@@ -70,31 +71,39 @@ def _imported(text: str, known: dict[str, Path]) -> set[str]:
     return found & known.keys()
 
 
-def announce_compiling() -> list[str]:
-    """From now on whoever sits at a terminal sees which kernel is being compiled. Returns the names, a growing list.
+def announce_compiling() -> None:
+    """From now on whoever sits at a terminal sees which kernel is being compiled."""
+    names: list[str] = []
+
+    def tell(name: str) -> None:
+        if name:
+            names.append(name)
+        terminal_line(f"compiling kernels: {len(names)}, {name}" if name else "")
+
+    on_compiling(tell)
+
+
+def on_compiling(tell: Callable[[str], None]) -> None:
+    """From now on `tell` hears the name of each kernel that is compiled, and '' whenever no more is for now.
 
     Kernels that are compiled already only cost their loading and are not named.
     """
     from numba.core import event
 
-    names: list[str] = []
-
-    class Announce(event.Listener):
+    class Listener(event.Listener):
         under_way = 0  # a kernel that calls others compiles them inside its own compilation
 
         def on_start(self, happening):
             function = happening.data["dispatcher"].py_func
-            names.append(f"{function.__module__}.{function.__qualname__}")
             self.under_way += 1
-            terminal_line(f"compiling kernels: {len(names)}, {names[-1]}")
+            tell(f"{function.__module__}.{function.__qualname__}")
 
         def on_end(self, happening):
             self.under_way -= 1
             if self.under_way == 0:
-                terminal_line("")
+                tell("")
 
-    event.register("numba:compile", Announce())
-    return names
+    event.register("numba:compile", Listener())
 
 
 def terminal_line(text: str) -> None:

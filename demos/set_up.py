@@ -5,11 +5,13 @@
 
 from __future__ import annotations
 
+import os
+import subprocess
 import sys
 import time
 
 from demos.cli import guarded
-from demos.kernels import announce_compiling
+from demos.kernels import on_compiling, terminal_line
 from engine.core.errors import BraceError
 
 
@@ -19,6 +21,9 @@ def main() -> None:
         fetch_clips()
     if "kernels" in sys.argv[1:]:
         compile_kernels()
+    for part in PARTS:
+        if f"kernels-{part}" in sys.argv[1:]:
+            _compile_part(part)
 
 
 def fetch_clips() -> None:
@@ -32,16 +37,64 @@ def fetch_clips() -> None:
 
 
 def compile_kernels() -> None:
-    """Runs a whole reaction on the embedded clip, so that set-up pays for compiling and no tick ever does."""
-    from demos.running import open_scenario, start
+    """Runs a whole reaction on the embedded clip, so that set-up pays for compiling and no tick ever does.
 
+    Before that, each part of it in a process of its own where there is more than one processor: they have few kernels
+    in common. Whatever a part did not manage is compiled by the whole run.
+    """
     begun = time.monotonic()
     _say("compiling kernels, once")
-    compiled = announce_compiling()
-    simulation = start(*open_scenario("sway"))
+    count = _compile_parts() if len(os.sched_getaffinity(0)) > 1 else 0
+    compiled: list[str] = []
+    on_compiling(lambda name: compiled.append(name) if name else None)
+    _run("sway")
+    _say(f"{count + len(compiled)} kernels compiled in {time.monotonic() - begun:.0f} s")
+
+
+def _compile_parts() -> int:
+    """Has all PARTS compiled at once, and returns how many kernels that were; on a terminal, which one it is now."""
+    reading, writing = os.pipe()
+    command = [sys.executable, "-P", "-m", "demos.set_up"]
+    parts = [subprocess.Popen([*command, f"kernels-{part}"], stdout=writing) for part in PARTS]
+    os.close(writing)
+    count = 0
+    with open(reading, encoding="utf-8") as names:
+        for count, name in enumerate(names, 1):
+            terminal_line(f"compiling kernels: {count}, {name.strip()}")
+    terminal_line("")
+    for part in parts:
+        part.wait()
+    return count
+
+
+def _compile_part(part: str) -> None:
+    """One of PARTS; the name of every kernel goes to standard output."""
+    on_compiling(lambda name: print(name, flush=True) if name else None)
+    PARTS[part]()
+
+
+def _protect() -> None:
+    """A protective pose alone."""
+    from demos.benchmarks.protection import standing_task
+
+    standing_task()
+
+
+def _be_struck() -> None:
+    """A ball at the ankle, where nobody expects one: a blow and the recovery from it, without any protection."""
+    ball = "threat=[{free=true, target='left_ankle', position_m=[4.0, 0.0, 0.3], speed_mps=26.0}]"
+    _run("sway", ball)
+
+
+PARTS = {"protection": _protect, "blow": _be_struck}
+
+
+def _run(scenario: str, *overrides: str) -> None:
+    from demos.running import open_scenario, start
+
+    simulation = start(*open_scenario(scenario, overrides))
     for _ in range(simulation.ticks):
         simulation.step()
-    _say(f"{len(compiled)} kernels compiled in {time.monotonic() - begun:.0f} s")
 
 
 def _say(line: str) -> None:

@@ -164,7 +164,9 @@ def _without(row, answer, other_row, other_answer):
 def depths_into(parent, offset_m, rotations, capsules, pairs, out):
     """How deep the parts of each pair (P, 2) lie in each other in a pose, metres, 0 where they are apart."""
     qpos = np.zeros(3 + 4 * JOINT_COUNT)
-    qpos[3:] = rotations.copy().reshape(-1)
+    for joint in range(JOINT_COUNT):
+        for k in range(4):
+            qpos[3 + 4 * joint + k] = rotations[joint, k]
     ends = capsules_at(capsules, *world_frames(parent, offset_m, qpos))
     for n in range(len(pairs)):
         a, b = pairs[n]

@@ -1,0 +1,77 @@
+"""What set-up does once packages are there: clips that need not come, kernels compiled in parts."""
+
+import subprocess
+import sys
+
+import numpy as np
+from numba import njit
+
+from demos import set_up
+from engine.core.errors import EnvironmentTrouble
+from tests.conftest import ROOT
+
+
+def test_without_network_it_says_so_and_goes_on(monkeypatch, capsys):
+    def no_network(say):
+        raise EnvironmentTrouble("fetch", "could not fetch walk (no network)")
+
+    monkeypatch.setattr("engine.clips.library.fetch", no_network)
+    set_up.fetch_clips()
+    said = capsys.readouterr().err
+    assert said.count("\n") == 1
+    assert "no network" in said
+    assert "embedded clip 'sway'" in said
+
+
+def test_a_part_says_which_kernels_it_compiles(monkeypatch, capsys):
+    @njit
+    def treble(x):
+        return 3.0 * x
+
+    monkeypatch.setitem(set_up.PARTS, "protection", lambda: treble(np.float64(2.0)))
+    set_up._compile_part("protection")
+    assert [name.rpartition(".")[2] for name in capsys.readouterr().out.split()] == ["treble"]
+
+
+def test_all_parts_run_and_their_kernels_are_counted(monkeypatch, tmp_path):
+    stand_in = tmp_path / "python"
+    stand_in.write_text(f'#!/bin/sh\necho "$*" >>{tmp_path}/calls\necho engine.one\necho engine.two\n')
+    stand_in.chmod(0o755)
+    monkeypatch.setattr(sys, "executable", str(stand_in))
+    assert set_up._compile_parts() == 2 * len(set_up.PARTS)
+    calls = (tmp_path / "calls").read_text().splitlines()
+    assert sorted(calls) == [f"-P -m demos.set_up kernels-{part}" for part in sorted(set_up.PARTS)]
+
+
+def test_the_blow_comes_without_a_protection_before_it(monkeypatch):
+    """Else both parts would compile the same kernels."""
+    from behaviours.components import Phase, Reaction
+    from demos import running
+
+    started, seen = [], set()
+    start = running.start
+
+    def watched(*words):
+        started.append(start(*words))
+        step = started[0].step
+
+        def stepped():
+            step()
+            seen.add(Phase(int(started[0].world[Reaction].phase[0])).name)
+
+        monkeypatch.setattr(started[0], "step", stepped)
+        return started[0]
+
+    monkeypatch.setattr(running, "start", watched)
+    set_up._be_struck()
+    assert {"RESPOND", "RECOVER_BLEND"} <= seen
+    assert not seen & {"STARTLE", "PROTECT", "HOLD"}
+
+
+def test_once_compiled_nothing_is_left_to_compile():
+    command = [sys.executable, "-m", "demos.set_up", "kernels"]
+    for _ in range(2):  # the first may have something to do
+        done = subprocess.run(command, cwd=ROOT, capture_output=True, text=True, check=True)
+    first, last = done.stderr.splitlines()
+    assert first == "brace: compiling kernels, once"
+    assert last.startswith("brace: 0 kernels compiled in ")
