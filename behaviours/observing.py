@@ -117,7 +117,7 @@ def _note(world, row: int, tick: int, track: Track) -> None:
     track.root_m.append(p.root_m[row].copy())
     track.rotations.append(p.rotations[row].copy())
     track.planted.append(world[Feet].planted[row].copy())
-    track.stands.append(tuple(foot_plan.stands(world[Feet], row, side, tick) for side in range(2)))
+    track.stands.append((foot_plan.stands(world[Feet], row, 0, tick), foot_plan.stands(world[Feet], row, 1, tick)))
     track.clip.append(int(world[Playback].clip[row]))
     plays = r.phase[row] == Phase.PLAY
     track.played.append(clip_pose(world, row, clip_time_s(world, row, tick)) if plays else None)

@@ -10,7 +10,7 @@ from pathlib import Path
 from behaviours.measures import Worst, greatest
 from behaviours.timing import TICK_S
 from demos.benchmarks.motion_cases import Case, scenario_of
-from demos.benchmarks.motion_table import Figure
+from demos.benchmarks.motion_figure import Figure
 from engine.clips.clip import Clip
 from engine.clips.library import find_clip
 

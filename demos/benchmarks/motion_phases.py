@@ -10,8 +10,9 @@ import numpy as np
 
 from behaviours.components import Phase
 from behaviours.measures import Worst
+from demos.benchmarks.motion_figure import Figure
 from demos.benchmarks.motion_run import Row
-from demos.benchmarks.motion_table import SNAP_MPS, Figure, figures_of
+from demos.benchmarks.motion_table import SNAP_MPS, figures_of
 
 LIMIT_RAD, DEPTH_M, SEAM_MPS = np.radians(0.5), 0.005, 0.05  # bars of the table
 SOME_FIGURES = (

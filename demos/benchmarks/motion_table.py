@@ -3,37 +3,16 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Callable
-from typing import NamedTuple
 
 import numpy as np
 
 from behaviours.timing import TICK_S
 from demos.benchmarks.motion_cases import AHEAD_DEG
+from demos.benchmarks.motion_figure import Figure, greatest, median, share, times
 from demos.benchmarks.motion_run import DEAD_AHEAD_DEG, EVERY_MIRRORED, Row
 from demos.benchmarks.pose_bars import PoseBars
 
 SNAP_MPS = 4.0  # nobody's joint changes its velocity by more than this in a tick: 49 g
-
-Of = Callable[[Row], float | None]
-
-
-class Figure(NamedTuple):
-    """One figure over all cases: its greatest or other value, in the words of the bar, and where it was worst."""
-
-    name: str
-    value: float
-    bar: str
-    met: bool
-    cases: int  # that are counted
-    failing: int  # of them, those that miss the bar on their own
-    worst: Row | None  # the case to look at
-    counted: str = ""  # what is counted, what is left out, and why
-    words: str = ""  # the worst, where it is no case
-
-    @property
-    def worst_words(self) -> str:
-        return str(self.worst["case"]) if self.worst else self.words
 
 
 def figures_of(rows: list[Row], poses: PoseBars | None = None) -> list[Figure]:
@@ -44,19 +23,19 @@ def figures_of(rows: list[Row], poses: PoseBars | None = None) -> list[Figure]:
         *_of_feet(rows),
         *_of_lines(rows),
         *_of_seams(rows),
-        _greatest(
-            rows, "beyond joint limits, degrees", 0.5, _times("joint_limit_excess_max_rad", degrees),
+        greatest(
+            rows, "beyond joint limits, degrees", 0.5, times("joint_limit_excess_max_rad", degrees),
             f"{_ticks(rows, 'reacting_ticks')} from the first of a reaction to the end of the run, physics included; "
             "beyond the most that the clip's own poses of that run have",
         ),
-        _greatest(
-            rows, "arms inside head, trunk or each other, mm", 5.0, _times("overlap_max_m", 1e3),
+        greatest(
+            rows, "arms inside head, trunk or each other, mm", 5.0, times("overlap_max_m", 1e3),
             "the same ticks; hands and forearms as capsules; beyond the most that the clip's own poses have",
         ),
         *_of_blows(rows),
         *_of_physics(rows),
-        _greatest(
-            rows, "mirrored run differs, m", 1e-6, _times("asymmetry_m", 1.0),
+        greatest(
+            rows, "mirrored run differs, m", 1e-6, times("asymmetry_m", 1.0),
             f"every {EVERY_MIRRORED}th case is run once more in the mirror, up to contact; left out: within "
             f"{DEAD_AHEAD_DEG:g} degrees of dead ahead",
         ),
@@ -67,11 +46,11 @@ def figures_of(rows: list[Row], poses: PoseBars | None = None) -> list[Figure]:
 
 def _of_contact(rows: list[Row]) -> list[Figure]:
     missed = [row["case"].number for row in rows if row["contact_error_s"] is None]
-    return [_greatest(
+    return [greatest(
         rows, "contact off its plan, ticks", 1.0, _contact_ticks,
         f"first touch of each ball, the flight that the struck surface saves counted in; left out: {len(missed)} balls "
         f"that touch nobody{_numbers(missed)}",
-    ), _greatest(
+    ), greatest(
         rows, "contact off the sustained pose's, ticks", None, _promise_ticks,
         "the first touch against that of the same ball on the sustained pose, were it there from the start",
     )]  # fmt: skip
@@ -80,17 +59,17 @@ def _of_contact(rows: list[Row]) -> list[Figure]:
 def _of_feet(rows: list[Row]) -> list[Figure]:
     settling = _ticks(rows, "settling_foot_ticks")
     return [
-        _greatest(
-            rows, "planted feet slide, mm", 2.0, _times("foot_slide_max_m", 1e3),
+        greatest(
+            rows, "planted feet slide, mm", 2.0, times("foot_slide_max_m", 1e3),
             f"{_ticks(rows, 'foot_ticks')} of a foot flagged planted in protection and recovery; left out: {settling} "
             "of one that stands by the plan while what a seam or blow left over still moves it (next two figures)",
         ),
-        _greatest(
-            rows, "feet that come to stand from the clip, mm", None, _times("settling_before_m", 1e3),
+        greatest(
+            rows, "feet that come to stand from the clip, mm", None, times("settling_before_m", 1e3),
             f"of those {settling} the ones in protection: a foot that stands in the clip still moves a little",
         ),
-        _greatest(
-            rows, "feet that come to stand from a blow, mm", None, _times("settling_after_m", 1e3),
+        greatest(
+            rows, "feet that come to stand from a blow, mm", None, times("settling_after_m", 1e3),
             "the ones in recovery: the blow may have moved a foot",
         ),
     ]  # fmt: skip
@@ -103,38 +82,38 @@ def _of_lines(rows: list[Row]) -> list[Figure]:
     total, sequences = sum(hands.values()), _ticks(rows, "two_sequences_ticks")
     ticks = _ticks(rows, "line_ticks")
     return [
-        _greatest(
-            rows, "hands off their straight lines, mm", 3.0, _times("hand_line_deviation_max_m", 1e3),
+        greatest(
+            rows, "hands off their straight lines, mm", 3.0, times("hand_line_deviation_max_m", 1e3),
             f"{hands['straight']} of {total} ticks of a hand in blends, without what a seam leaves over; left out: "
             f"{hands['bowed']} on a way bowed round the body, {hands['led']} pushed out of it just then, "
             f"{hands['beyond_reach']} with the line beyond the arm's reach, and {sequences} in recovery's first "
             "part, which blends two sequences and has no line",
         ),
-        _greatest(
-            rows, "hands led round the body are off it, mm", None, _times("led_astray_m", 1e3),
+        greatest(
+            rows, "hands led round the body are off it, mm", None, times("led_astray_m", 1e3),
             f"those {hands['bowed'] + hands['led']}",
         ),
-        _greatest(
-            rows, "COM off its line, mm", 5.0, _times("com_line_deviation_max_m", 1e3),
+        greatest(
+            rows, "COM off its line, mm", 5.0, times("com_line_deviation_max_m", 1e3),
             f"{ticks} of blends, without what a seam leaves over; left out: {sequences} in recovery's first part",
         ),
-        _greatest(rows, "neck off its line, mm", None, _times("neck_line_m", 1e3), f"the same {ticks}"),
+        greatest(rows, "neck off its line, mm", None, times("neck_line_m", 1e3), f"the same {ticks}"),
     ]  # fmt: skip
 
 
 def _of_seams(rows: list[Row]) -> list[Figure]:
     seams = sum(row["seams"] for row in rows)
     return [
-        _greatest(
-            rows, "jump of place at a seam, mm", 0.5, _times("seam_position_jump_max_m", 1e3),
+        greatest(
+            rows, "jump of place at a seam, mm", 0.5, times("seam_position_jump_max_m", 1e3),
             f"all joints at {seams} seams, blows included",
         ),
-        _greatest(
-            rows, "jump of velocity at a seam, m/s", 0.05, _times("seam_velocity_jump_max_mps", 1.0),
+        greatest(
+            rows, "jump of velocity at a seam, m/s", 0.05, times("seam_velocity_jump_max_mps", 1.0),
             "the same joints and seams, one-sided velocities; left out: blows, whose impulse is meant to jump "
             f"({sum('respond' in row['seam_by_phase'] for row in rows)} cases have one)",
         ),
-        _greatest(
+        greatest(
             rows, "change of velocity within a tick, m/s", SNAP_MPS, lambda row: row["snap"].value,
             "all joints outside the physics, also in the middle of blends, beyond the clip's own while it plays; a bar "
             "of our own: what is over it is a pop",
@@ -148,21 +127,21 @@ def _of_blows(rows: list[Row]) -> list[Figure]:
     heads = [row for row in rows if row["case"].target == "head"]
     left_out = sum(_both(row) is None for row in heads)
     return [
-        _share(
+        share(
             rows, "head threats from ahead met by hand or forearm, %", 95.0, _met_by_arm,
             f"threats to the head within {AHEAD_DEG:g} degrees of ahead; {unmet} that touched nobody count as not met",
         ),
-        _share(
+        share(
             rows, "head is hit less hard than unprotected, %", 90.0, _spared,
             f"threats to the head from anywhere; left out: {left_out} of {len(heads)}, nobody struck in one run",
         ),
-        _median(rows, "median cut of the head's peak acceleration, %", 40.0, _cut, "the same threats"),
+        median(rows, "median cut of the head's peak acceleration, %", 40.0, _cut, "the same threats"),
     ]  # fmt: skip
 
 
 def _of_physics(rows: list[Row]) -> list[Figure]:
     return [
-        _greatest(
+        greatest(
             rows, "fastest joint under the physics, m/s", None, lambda row: row["fastest"].value,
             "all joints from the blow to recovery, and while down; nothing that is hit goes much faster than the ball",
         )
@@ -195,10 +174,6 @@ def _numbers(cases: list[int]) -> str:
     return f" (cases {', '.join(map(str, cases))})" if cases else ""
 
 
-def _times(key: str, scale: float) -> Of:
-    return lambda row: None if row.get(key) is None else scale * row[key]
-
-
 def _contact_ticks(row: Row) -> float | None:
     return None if row["contact_error_s"] is None else abs(row["contact_error_s"]) / TICK_S
 
@@ -225,37 +200,6 @@ def _spared(row: Row) -> float | None:
 
 def _cut(row: Row) -> float | None:
     return None if (pair := _both(row)) is None else 100.0 * (1.0 - pair[0] / max(pair[1], 1e-9))
-
-
-def _values(rows: list[Row], of: Of) -> tuple[list[Row], np.ndarray]:
-    kept = [row for row in rows if of(row) is not None]
-    return kept, np.array([of(row) for row in kept], float)
-
-
-def _greatest(rows: list[Row], name: str, limit: float | None, of: Of, counted: str = "") -> Figure:
-    """limit None: a figure without a bar, to know."""
-    kept, values = _values(rows, of)
-    bar = "-" if limit is None else f"<= {limit:g}"
-    if not kept:
-        return Figure(name, float("nan"), bar, False, 0, 0, None, counted)
-    over, at = (0 if limit is None else int((values > limit).sum())), int(values.argmax())
-    return Figure(name, float(values[at]), bar, over == 0, len(kept), over, kept[at], counted)
-
-
-def _share(rows: list[Row], name: str, least: float, of: Of, counted: str) -> Figure:
-    kept, values = _values(rows, of)
-    share = 100.0 * float(values.mean()) if kept else float("nan")
-    worst = next((row for row, value in zip(kept, values, strict=True) if not value), None)
-    return Figure(name, share, f">= {least:g}", share >= least, len(kept), int((values == 0.0).sum()), worst, counted)
-
-
-def _median(rows: list[Row], name: str, least: float, of: Of, counted: str) -> Figure:
-    kept, values = _values(rows, of)
-    middle = float(np.median(values)) if kept else float("nan")
-    worst = kept[int(values.argmin())] if kept else None
-    return Figure(
-        name, middle, f">= {least:g}", middle >= least, len(kept), int((values < least).sum()), worst, counted
-    )
 
 
 def _tick(rows: list[Row]) -> Figure:

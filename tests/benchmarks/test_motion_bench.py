@@ -129,6 +129,14 @@ def test_a_ball_that_touches_nobody_is_left_out_but_not_where_it_must_be_met():
     assert figure(rows, "head is hit").cases == 1
 
 
+@pytest.mark.parametrize("value", [math.inf, math.nan])
+def test_what_is_no_number_meets_no_bar(value):
+    found = figure([row(0), row(1, asymmetry_m=value), row(2, asymmetry_m=0.0)], "mirrored run")
+    assert not found.met
+    assert (found.cases, found.failing) == (2, 1)
+    assert found.worst["case"].number == 1
+
+
 def test_nothing_to_count_is_not_met():
     none = figure([row(asymmetry_m=None)], "mirrored run")
     assert math.isnan(none.value)
