@@ -11,7 +11,7 @@ from __future__ import annotations
 import numpy as np
 from numba import njit
 
-from behaviours.guard import clamp, guard, guard_freely, reset
+from behaviours.guard import clamp, guard, reset
 from behaviours.limb_freedom import free_leg
 from behaviours.rules import lean, turn
 from behaviours.rules.controls import LEAN, REACH_LEFT, RECOIL, SWIVEL_LEFT, TURN
@@ -27,20 +27,16 @@ def apply_rules(task, pelvis_shift, controls, soft_m, posed):
     two_bones.soft_reach.
     """
     posed.made_from[:] = np.nan
-    free_arms = len(posed.palms) > 0  # true, and not a constant, of which kernels would compile a variant
-    update_pose(task, pelvis_shift, controls, soft_m, free_arms, posed)
+    update_pose(task, pelvis_shift, controls, soft_m, posed)
     posed.made_from[:] = np.nan
 
 
 @njit(cache=True, forceinline=True)
-def update_pose(task, pelvis_shift, controls, soft_m, free_arms, posed):
+def update_pose(task, pelvis_shift, controls, soft_m, posed):
     """apply_rules for a search: what is made from the same numbers as last time is not made again.
 
     Trunk and legs are made from the pelvis's shift, lean and turn; an arm from those, the recoil and its own reach
     and swivel. So a difference in one arm's control costs one arm. `posed` remembers, and so belongs to one task.
-
-    Without `free_arms` the elbows stay at their swivels, whatever shoulders and trunk forbid: an elbow that swings
-    aside as far as it must moves the COM by millimetres, but with kinks that a search would be caught in.
     """
     bones, start, feet, build = task.bones, task.start, task.feet, task.build
     low_rad, high_rad, margin_rad = start.low_rad, start.high_rad, task.rules.limit_margin_rad
@@ -54,7 +50,6 @@ def update_pose(task, pelvis_shift, controls, soft_m, free_arms, posed):
             root, controls[LEAN], controls[TURN], start.heading_rad, task.threat, task.choices, task.rules,
             bones.offset_m, start.rotations, start.orientations, low_rad, high_rad, rotations, positions, orientations,
         )  # fmt: skip
-        place_obstacles(bones.obstacle_joint, bones.obstacle_m, positions, orientations, posed.obstacles)
     for side in range(2):
         if not same_trunk:
             if feet.held[side]:
@@ -62,7 +57,7 @@ def update_pose(task, pelvis_shift, controls, soft_m, free_arms, posed):
                     side, vector.at(feet.ankle_m, side), quaternion.at(feet.turned, side),
                     quaternion.at(feet.toe, side), build.knee_rad[side], soft_m, bones.offset_m,
                     start.rotations, start.orientations, low_rad, high_rad, margin_rad,
-                    posed.obstacles, build.obstacle_radius_m, rotations, positions, orientations,
+                    rotations, positions, orientations,
                 )  # fmt: skip
             else:
                 posed.foot_miss_m[side] = posed.trouble[side] = 0.0
@@ -70,18 +65,10 @@ def update_pose(task, pelvis_shift, controls, soft_m, free_arms, posed):
         reach, swivel = controls[REACH_LEFT + side], controls[SWIVEL_LEFT + side]
         same_arm = _remember(made_from, 1 + side, (controls[RECOIL], reach, swivel, 0.0, 0.0, 0.0))
         if not (same_trunk and same_arm):
-            if free_arms:
-                palm, wrong = guard_freely(
-                    side, controls[RECOIL], reach, swivel, build, task.threat, task.choices, task.rules, bones.offset_m,
-                    start.rotations, low_rad, high_rad, posed.obstacles, rotations, positions, orientations,
-                )  # fmt: skip
-            else:
-                palm, wrong = guard(
-                    side, controls[RECOIL], reach, swivel, free_arms, 0.0, build, task.threat, task.choices, task.rules,
-                    bones.offset_m, start.rotations, low_rad, high_rad, posed.obstacles, rotations, positions,
-                    orientations,
-                )  # fmt: skip
-            posed.trouble[2 + side] = wrong
+            palm = guard(
+                side, controls[RECOIL], reach, swivel, build, task.threat, task.choices, task.rules, bones.offset_m,
+                start.rotations, low_rad, high_rad, rotations, positions, orientations,
+            )  # fmt: skip
             vector.put(posed.palms, side, palm)
 
 
@@ -119,17 +106,6 @@ def place_trunk(
 
 
 @inner_kernel
-def place_obstacles(joints, ends_m, positions, orientations, obstacles):
-    """Writes where the capsules that arms must clear are in the world: (C, 6), both ends of each."""
-    for c in range(len(joints)):
-        at, turned = vector.at(positions, joints[c]), quaternion.at(orientations, joints[c])
-        for end in range(2):
-            p = vector.add(at, quaternion.rotate(turned, (ends_m[c, end, 0], ends_m[c, end, 1], ends_m[c, end, 2])))
-            for k in range(3):
-                obstacles[c, 3 * end + k] = p[k]
-
-
-@inner_kernel
 def hang_leg(side, offset_m, start_rotations, rotations, positions, orientations):
     """A leg whose foot is not on the ground goes with the pelvis as it is."""
     hip = HIPS[side]
@@ -142,7 +118,7 @@ def hang_leg(side, offset_m, start_rotations, rotations, positions, orientations
 @inner_kernel
 def plant_leg(
     side, ankle_m, foot, toe, knee_rad, soft_m, offset_m, start_rotations, start_orientations, low_rad, high_rad,
-    margin_rad, obstacles, radii_m, rotations, positions, orientations,
+    margin_rad, rotations, positions, orientations,
 ):  # fmt: skip
     """A foot is put where it stands by leg IK. Returns (how far it misses, metres; what limits still forbid, radians).
 
@@ -158,10 +134,6 @@ def plant_leg(
     for joint in range(hip, TOES[side]):
         parent = PELVIS if joint == hip else joint - 1
         place_children(offset_m, rotations, positions, orientations, parent, joint)
-    miss_m = leg_onto(
-        offset_m, knee_rad, rotations, positions, orientations, side, ankle_m, foot, KEEP, soft_m
-    )
-    wrong = free_leg(
-        side, offset_m, low_rad, high_rad, margin_rad, obstacles, radii_m, rotations, positions, orientations
-    )
+    miss_m = leg_onto(offset_m, knee_rad, rotations, positions, orientations, side, ankle_m, foot, KEEP, soft_m)
+    wrong = free_leg(side, offset_m, low_rad, high_rad, margin_rad, rotations, positions, orientations)
     return miss_m, wrong

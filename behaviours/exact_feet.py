@@ -1,4 +1,4 @@
-"""The pose that is shown: planted feet exactly where they are planted, shoulders within their limits."""
+"""The pose that is shown: planted feet exactly where they are planted, both arms fitted in."""
 
 from __future__ import annotations
 
@@ -6,9 +6,10 @@ import numpy as np
 from numba import njit
 
 from behaviours.apply_rules import apply_rules
-from behaviours.guard import stop_shoulder
-from engine.body.skeleton import HIPS, WRISTS
-from engine.maths import quaternion, vector
+from behaviours.fit_arms import fit_arms
+from engine.body.skeleton import HIPS
+from engine.maths import vector
+from engine.maths.inner_kernel import inner_kernel
 
 EXACT = 0.0  # leg reach without the soft end: for poses that are shown
 LOWERINGS = 20  # each closes what is missing but for the leg's slant
@@ -16,8 +17,18 @@ LOWERINGS = 20  # each closes what is missing but for the leg's slant
 
 @njit(cache=True)
 def pose_exactly(task, shift, controls, posed, tolerance_m):
-    """Writes the pose with planted feet where they are planted; returns how far the pelvis had to give (3,),
-    metres.
+    """Writes the pose with planted feet where they are planted and both arms as they are shown; returns how far the
+    pelvis had to give (3,), metres.
+    """
+    given = stand_exactly(task, shift, controls, posed, tolerance_m)
+    fit_arms(task, controls, posed)
+    return given
+
+
+@njit(cache=True)
+def stand_exactly(task, shift, controls, posed, tolerance_m):
+    """Writes the pose with planted feet where they are planted, arms as the rules want them; returns how far the
+    pelvis had to give (3,), metres.
 
     The pelvis is lowered by what is missing, which leaves the COM over the same ground. Only where the foot lies
     farther to the side than the leg is long is it drawn towards it.
@@ -41,19 +52,10 @@ def pose_exactly(task, shift, controls, posed, tolerance_m):
         given[1] += most[1] / short
         given[2] += most[2]
         apply_rules(task, shift + given, controls, EXACT, posed)
-    low_rad, high_rad = task.start.low_rad, task.start.high_rad
-    for side in range(2):
-        # what no swivel of the elbow could mend: the shoulder stops, and the hand with it
-        if posed.trouble[2 + side] > 0.0:
-            stop_shoulder(
-                side, task.bones.offset_m, low_rad, high_rad, posed.rotations, posed.positions, posed.orientations
-            )
-            palm = quaternion.rotate(quaternion.at(posed.orientations, WRISTS[side]), task.build.palm_m[side])
-            vector.put(posed.palms, side, vector.add(vector.at(posed.positions, WRISTS[side]), palm))
     return given
 
 
-@njit(cache=True)
+@inner_kernel
 def _missing(hip, ankle, leg_m):
     """What brings one hip within reach of its foot: down; along the leg too, where it lies farther aside than down."""
     reach = leg_m - 1e-6

@@ -2,14 +2,17 @@
 threat.
 
 The arm is built anew in closed form (Tolani, Goswami, Badler 2000), not corrected from the clip's: nothing of the
-clip's arm is to be kept, and its elbow then is a hinge and keeps its limits by construction.
+clip's arm is to be kept, and its elbow then is a hinge and keeps its limits by construction. Whether shoulder and wrist
+can do that, and what is in the way, is for `behaviours.fit_arms`, which sees the pose that is shown: a search goes by
+smooth arms.
 """
 
 from __future__ import annotations
 
 import math
 
-from behaviours.limb_freedom import free_arm
+from numba import njit
+
 from behaviours.perceived import target_centre
 from behaviours.rules import block, recoil, wrap
 from engine.body.limb_ik import place_children, side_sign
@@ -18,10 +21,6 @@ from engine.body.skeleton import BACK, CLAVICLES, ELBOWS, HEAD, SHOULDERS, WRIST
 from engine.body.two_bones import SOFT_REACH_M, soft_reach
 from engine.maths import quaternion, vector
 from engine.maths.inner_kernel import inner_kernel
-from engine.maths.shapes import distance_to_segment, outwards
-
-SLIDE_M, SLIDES, SLIDE_HALVINGS = 0.02, 8, 6  # how a palm looks for room farther out on its line
-SAME_TURN_RAD = 1e-6  # a hand that got the turn it wanted needs no second look
 
 
 @inner_kernel
@@ -40,78 +39,47 @@ def clamp(low_rad, high_rad, rotations, j):
 
 @inner_kernel
 def guard(
-    side, recoil_control, reach_control, swivel_control, free, slide_m, build, threat, choices, rules,
-    offset_m, start_rotations, low_rad, high_rad, obstacles, rotations, positions, orientations,
+    side, recoil_control, reach_control, swivel_control, build, threat, choices, rules,
+    offset_m, start_rotations, low_rad, high_rad, rotations, positions, orientations,
 ):  # fmt: skip
-    """Recoil and block of one side, in place. Returns (the palm's centre, world; what is still forbidden, radians).
-
-    free: whether the elbow swings aside where shoulder or trunk forbid its swivel; slide_m: how much farther out on the
-    line of approach the palm goes than its reach asks for.
-    """
-    clavicle, shoulder, wrist = CLAVICLES[side], SHOULDERS[side], WRISTS[side]
+    """Recoil and block of one side, in place: the arm as the rules want it. Returns the palm's centre, world."""
+    clavicle, shoulder = CLAVICLES[side], SHOULDERS[side]
     back = clavicle - clavicle + BACK  # a number like any other: a constant would compile a variant of its own
     reset(start_rotations, rotations, clavicle, clavicle)
     recoil.raise_clavicle(rotations, side, recoil_control, rules.recoil)
     clamp(low_rad, high_rad, rotations, clavicle)
     place_children(offset_m, rotations, positions, orientations, back, clavicle)
     place_children(offset_m, rotations, positions, orientations, clavicle, shoulder)
-    palm, hand, swivel = guard_goal(
+    palm, hand, elbow_way = guard_goal(
         side, reach_control, swivel_control, build, threat, choices, rules, positions, orientations
     )
-    palm = vector.along(palm, threat.tangent, -slide_m * (1.0 - choices.wrap))
-    palm = clear_of_trunk(palm, build.hand_radius_m, obstacles, build.obstacle_radius_m, rules.block.soften_m)
-    turned, wrong = hand, 0.0
-    for _ in range(2):
-        # a hand stopped by its limits holds its palm elsewhere: the arm follows once
-        at = vector.subtract(palm, quaternion.rotate(turned, build.palm_m[side]))
-        bend_arm(side, at, swivel, build.elbow_rad[side], offset_m, rotations, positions, orientations)
-        if free:
-            wrong = free_arm(
-                side, offset_m, low_rad, high_rad, rules.limit_margin_rad, build.arm_radius_m[side],
-                obstacles, build.obstacle_radius_m, rotations, positions, orientations,
-            )  # fmt: skip
-        turn_hand(side, hand, offset_m, low_rad, high_rad, rotations, positions, orientations)
-        turned = quaternion.at(orientations, wrist)
-        if quaternion.angle_between(turned, hand) < SAME_TURN_RAD:
-            break
-    return vector.add(vector.at(positions, wrist), quaternion.rotate(turned, build.palm_m[side])), wrong
+    return put_palm(
+        side, palm, hand, elbow_way, 0.0, build.palm_m[side], build.elbow_rad[side], offset_m, rotations, positions,
+        orientations,
+    )  # fmt: skip
 
 
-@inner_kernel
-def guard_freely(
-    side, recoil_control, reach_control, swivel_control, build, threat, choices, rules,
-    offset_m, start_rotations, low_rad, high_rad, obstacles, rotations, positions, orientations,
-):  # fmt: skip
-    """guard, and where no swivel frees the arm, the palm slides out along the line, towards the threat, until one does.
+@njit(cache=True)
+def put_palm(
+    side, palm, hand, elbow_way, swing_rad, palm_m, greatest_rad, offset_m, rotations, positions, orientations
+):
+    """The arm with its palm's centre on a world target and the hand turned as wanted, in place, limits or not.
 
-    To the nearest such place, by halving; where there is none within SLIDES steps, the palm stays at its reach.
+    elbow_way, swing_rad: see bend_arm; palm_m: the palm's centre in the wrist's frame. Returns where it comes to be:
+    the arm may be too short.
     """
-    near_m = far_m = slide_m = 0.0
-    halvings = SLIDE_HALVINGS
-    for step in range(SLIDES + SLIDE_HALVINGS + 1):
-        palm, wrong = guard(
-            side, recoil_control, reach_control, swivel_control, slide_m >= 0.0, slide_m, build, threat, choices, rules,
-            offset_m, start_rotations, low_rad, high_rad, obstacles, rotations, positions, orientations,
-        )  # fmt: skip
-        if step == 0 and (wrong == 0.0 or choices.wrap >= 0.5):
-            break
-        if wrong == 0.0:
-            far_m = slide_m
-            if halvings == 0:
-                break
-        else:
-            near_m = slide_m
-        if far_m == 0.0:  # still looking for a free place
-            slide_m = near_m + SLIDE_M if step < SLIDES else 0.0
-        else:
-            halvings -= 1
-            slide_m = 0.5 * (near_m + far_m) if halvings > 0 else far_m
-    return palm, wrong
+    at = vector.subtract(palm, quaternion.rotate(hand, palm_m))
+    bend_arm(side, at, elbow_way, swing_rad, greatest_rad, offset_m, rotations, positions, orientations)
+    turn_hand(side, hand, offset_m, rotations, positions, orientations)
+    return vector.add(vector.at(positions, WRISTS[side]), quaternion.rotate(hand, palm_m))
 
 
 @inner_kernel
 def guard_goal(side, reach_control, swivel_control, build, threat, choices, rules, positions, orientations):
-    """Where one palm is wanted, how the hand is turned (world) and the elbow's swivel: block, wrap, or a mixture."""
+    """Where one palm is wanted, how the hand is turned, and which way the elbow points: block, wrap, or a mixture.
+
+    World; the elbow's way is a unit vector at right angles to the line from shoulder to wrist.
+    """
     b, w, p = rules.block, rules.wrap, rules.pelvis
     trunk = quaternion.at(orientations, side - side + BACK)
     head_reach = block.reach_m(reach_control, b.reach_far_m, b.reach_near_m, build.arm_m[side], b.arm_share)
@@ -129,38 +97,51 @@ def guard_goal(side, reach_control, swivel_control, build, threat, choices, rule
         b.offset_m,
         b.soften_m,
     )
-    hand = block.hand_facing(side, vector.scale(threat.tangent, -1.0), choices.fingers)
+    arm = vector.unit(vector.subtract(palm, vector.at(positions, SHOULDERS[side])), choices.fingers)
+    turn = block.fingers_from_up(arm, choices.fingers, b)
+    palm = vector.along(palm, choices.across, side_sign(side) * b.fingers_apart_m * math.sin(turn))
+    fingers = block.fingers_turned(side, choices.fingers, choices.across, turn)
+    hand = block.hand_facing(side, vector.scale(threat.tangent, -1.0), fingers)
     swivel = block.swivel_rad(swivel_control, b.swivel_small_rad, b.swivel_large_rad)
     if choices.wrap > 0.0:
         head, at = quaternion.at(orientations, side - side + HEAD), vector.at(positions, side - side + HEAD)
         centre = vector.add(at, quaternion.rotate(head, build.head_centre_m))
         apart = build.head_radius_m + build.hand_radius_m
-        behind = wrap.wrapped_palm(side, centre, head, apart, w)
-        normal, fingers = wrap.wrapped_hand(side, head, w)
+        guarded = wrap.guarded_head(head, vector.scale(threat.tangent, -1.0), w)
+        behind = wrap.wrapped_palm(side, centre, guarded, apart, w)
+        normal, fingers = wrap.wrapped_hand(side, guarded, w)
         palm = wrap.around_head(vector.mix(palm, behind, choices.wrap), centre, apart)
         hand = quaternion.slerp(hand, block.hand_facing(side, normal, fingers), choices.wrap)
-        swivel += (w.swivel_rad - swivel) * choices.wrap
-    return palm, hand, swivel
+    girdle, root = quaternion.at(orientations, CLAVICLES[side]), vector.at(positions, SHOULDERS[side])
+    wrist = vector.subtract(palm, quaternion.rotate(hand, build.palm_m[side]))
+    n = vector.unit(vector.subtract(wrist, root), (1.0, 0.0, 0.0))
+    elbow_way = turned_about(n, across_arm(n, quaternion.rotate(girdle, (0.0, 0.0, -1.0))), side_sign(side) * swivel)
+    if choices.wrap > 0.0:
+        around = across_arm(n, quaternion.rotate(trunk, wrap.elbow_direction(side, w)))
+        elbow_way = across_arm(n, vector.mix(elbow_way, around, choices.wrap))
+    return palm, hand, elbow_way
+
+
+@njit(cache=True)
+def across_arm(n, wanted):
+    """The unit vector at right angles to the line from shoulder to wrist, unit n, that is nearest to a wanted one."""
+    otherwise = vector.unit(vector.reject((1.0, 0.0, 0.0), n), (0.0, 1.0, 0.0))
+    return vector.unit(vector.reject(wanted, n), otherwise)
+
+
+@njit(cache=True)
+def turned_about(n, across, angle_rad):
+    """A vector at right angles to unit n, turned about it."""
+    cosine, sine = math.cos(angle_rad), math.sin(angle_rad)
+    return vector.add(vector.scale(across, cosine), vector.scale(vector.cross(n, across), sine))
 
 
 @inner_kernel
-def clear_of_trunk(palm, hand_radius_m, obstacles, radii_m, soften_m):
-    """A palm's target pushed out of trunk and head, as far as the hand is thick. obstacles (C, 6), see limb_freedom."""
-    for c in range(len(radii_m)):
-        start = (obstacles[c, 0], obstacles[c, 1], obstacles[c, 2])
-        stop = (obstacles[c, 3], obstacles[c, 4], obstacles[c, 5])
-        apart = distance_to_segment(start, stop, palm)
-        if apart < hand_radius_m + radii_m[c] + soften_m:
-            out = block.smooth_max(apart, hand_radius_m + radii_m[c], soften_m) - apart
-            palm = vector.along(palm, outwards(start, stop, palm), out)
-    return palm
+def bend_arm(side, target, elbow_way, swing_rad, greatest_rad, offset_m, rotations, positions, orientations):
+    """Puts the wrist on a world target, in place: both bones along -Z of their joints. Reach ends softly.
 
-
-@inner_kernel
-def bend_arm(side, target, swivel_rad, greatest_rad, offset_m, rotations, positions, orientations):
-    """Puts the wrist on a world target with the elbow at a swivel, in place: both bones along -Z of their joints.
-
-    The swivel turns about shoulder - wrist from the clavicle's down, positive away from the body. Reach ends softly.
+    The elbow points as nearly the way wanted as that leaves it, and is swung aside from there, positive away from the
+    body.
     """
     clavicle, shoulder, elbow, wrist = CLAVICLES[side], SHOULDERS[side], ELBOWS[side], WRISTS[side]
     girdle, root = quaternion.at(orientations, clavicle), vector.at(positions, shoulder)
@@ -174,10 +155,7 @@ def bend_arm(side, target, swivel_rad, greatest_rad, offset_m, rotations, positi
     if flexion > greatest_rad:
         flexion = greatest_rad
         reach_m = math.sqrt(squares + product * math.cos(flexion))
-    down = quaternion.rotate(girdle, (0.0, 0.0, -1.0))
-    out = vector.unit(vector.reject(down, n), vector.unit(vector.reject((1.0, 0.0, 0.0), n), (0.0, 1.0, 0.0)))
-    turn = side_sign(side) * swivel_rad
-    out = vector.add(vector.scale(out, math.cos(turn)), vector.scale(vector.cross(n, out), math.sin(turn)))
+    out = turned_about(n, across_arm(n, elbow_way), side_sign(side) * swing_rad)
     # along n, and out of it towards the elbow, as far as the upper arm goes
     cosine = (upper_m * upper_m + reach_m * reach_m - lower_m * lower_m) / (2.0 * upper_m * reach_m)
     sine = math.sqrt(max(0.0, 1.0 - cosine * cosine))
@@ -192,8 +170,8 @@ def bend_arm(side, target, swivel_rad, greatest_rad, offset_m, rotations, positi
 
 
 @inner_kernel
-def turn_hand(side, hand, offset_m, low_rad, high_rad, rotations, positions, orientations):
-    """Gives the hand a world orientation within the limits: what turns about the forearm is the forearm's to do.
+def turn_hand(side, hand, offset_m, rotations, positions, orientations):
+    """Gives the hand a world orientation: what turns about the forearm is the forearm's to do, the rest the wrist's.
 
     The elbow must be as bend_arm leaves it, a pure hinge.
     """
@@ -205,19 +183,17 @@ def turn_hand(side, hand, offset_m, low_rad, high_rad, rotations, positions, ori
         twist -= 2.0 * math.pi
     elif twist < -math.pi:
         twist += 2.0 * math.pi
-    twist = min(high_rad[elbow, 2], max(low_rad[elbow, 2], twist))
     quaternion.put(rotations, elbow, quaternion.multiply(quaternion.at(rotations, elbow), quaternion.about_z(twist)))
     place_children(offset_m, rotations, positions, orientations, shoulder, elbow)
     swing = quaternion.multiply(quaternion.conjugate(quaternion.at(orientations, elbow)), hand)
     quaternion.put(rotations, wrist, swing)
-    clamp(low_rad, high_rad, rotations, wrist)
     place_children(offset_m, rotations, positions, orientations, elbow, wrist)
 
 
 @inner_kernel
-def stop_shoulder(side, offset_m, low_rad, high_rad, rotations, positions, orientations):
-    """Holds one shoulder within its limits and carries arm and hand along, in place."""
+def stop_arm(side, offset_m, low_rad, high_rad, rotations, positions, orientations):
+    """Holds one arm's joints within their limits and carries what hangs on them along, in place."""
     clavicle, wrist = CLAVICLES[side], WRISTS[side]
-    clamp(low_rad, high_rad, rotations, SHOULDERS[side])
     for joint in range(clavicle + 1, wrist + 1):
+        clamp(low_rad, high_rad, rotations, joint)
         place_children(offset_m, rotations, positions, orientations, joint - 1, joint)

@@ -51,8 +51,8 @@ def legs_trouble(task, controls, root_m, posed):
             _, wrong = plant_leg(
                 side, vector.at(feet.ankle_m, side), quaternion.at(feet.turned, side), quaternion.at(feet.toe, side),
                 task.build.knee_rad[side], SOFT_REACH_M, bones.offset_m, start.rotations, start.orientations,
-                start.low_rad, start.high_rad, task.rules.limit_margin_rad, posed.obstacles,
-                task.build.obstacle_radius_m, posed.rotations, posed.positions, posed.orientations,
+                start.low_rad, start.high_rad, task.rules.limit_margin_rad,
+                posed.rotations, posed.positions, posed.orientations,
             )  # fmt: skip
             worst = max(worst, wrong)
     return worst

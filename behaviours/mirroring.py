@@ -107,6 +107,8 @@ def mirror_bones(bones: Bones, build: Build) -> tuple[Bones, Build]:
             knee_rad=build.knee_rad[::-1],
             head_centre_m=_flip(build.head_centre_m),
             arm_radius_m=build.arm_radius_m[::-1],
+            hand_start_m=(_flip(build.hand_start_m[1]), _flip(build.hand_start_m[0])),
+            hand_end_m=(_flip(build.hand_end_m[1]), _flip(build.hand_end_m[0])),
         ),
     )
 

@@ -71,6 +71,16 @@ class Block(NamedTuple):
     ] = 0.1
     swivel_small_rad: Annotated[float, Constant("rad", "3.2.5", "elbow away from down, control 0")] = radians(70)
     swivel_large_rad: Annotated[float, Constant("rad", "3.2.5", "elbow away from down, control 1")] = radians(10)
+    fingers_up_until: Annotated[
+        float, Constant("1", "A3.4", "cosine, arm to straight down, up to which fingers point up")
+    ] = 0.3
+    fingers_down_from: Annotated[float, Constant("1", "A3.4", "and from which on they point down and inwards")] = 0.85
+    fingers_down_rad: Annotated[float, Constant("rad", "A3.4", "how far from up that is, going round inwards")] = (
+        radians(150)
+    )
+    fingers_apart_m: Annotated[
+        float, Constant("m", "A3.4", "added to each palm's offset where fingers point at each other")
+    ] = 0.06
     soften_m: Annotated[float, Constant("m", "A3.4", "width over which reach, clearance and plane meet")] = 0.02
 
 
@@ -80,12 +90,22 @@ class Wrap(NamedTuple):
     behind_low: Annotated[float, Constant("1", "A5", "facing . threat at and below which the arms wrap fully")] = -0.15
     behind_high: Annotated[float, Constant("1", "A5", "facing . threat at and above which they block fully")] = 0.15
     palm_gap_m: Annotated[float, Constant("m", "3.4", "skin of the hand off the back of the head")] = 0.0
-    palm_apart_m: Annotated[float, Constant("m", "3.4", "each palm off the middle")] = 0.075
-    palm_below_m: Annotated[float, Constant("m", "3.4", "palms below the head's centre")] = 0.02
+    palm_aside_rad: Annotated[
+        float, Constant("rad", "3.4", "each palm from the middle of the head's back to its own side")
+    ] = radians(40)
+    follow_rad: Annotated[
+        float, Constant("rad", "A5", "how far the hands follow a threat around the head, at most")
+    ] = radians(30)
+    palm_below_m: Annotated[float, Constant("m", "3.4", "palms below the head's centre")] = 0.0
     fingers_inward_rad: Annotated[float, Constant("rad", "3.4", "fingers from upright towards each other")] = radians(
-        20
+        65
     )
-    swivel_rad: Annotated[float, Constant("rad", "3.4", "elbow away from down, wrapped around the head")] = radians(110)
+    elbow_aside_rad: Annotated[float, Constant("rad", "3.4", "elbows from straight ahead to their sides")] = radians(45)
+    beside_aside_rad: Annotated[
+        float, Constant("rad", "A5", "on the way from block to wrap: palms from the middle of the head's back")
+    ] = radians(115)
+    beside_fingers_inward_rad: Annotated[float, Constant("rad", "A5", "and their fingers from upright")] = radians(15)
+    beside_elbow_aside_rad: Annotated[float, Constant("rad", "A5", "and elbows from straight ahead")] = radians(20)
 
 
 class Pelvis(NamedTuple):

@@ -10,8 +10,8 @@ from typing import NamedTuple
 import numpy as np
 
 from behaviours import minimise
-from behaviours.apply_rules import update_pose
-from behaviours.balance_search import keep_limits, solve, weigh_arms
+from behaviours.apply_rules import apply_rules
+from behaviours.balance_search import draw_back, keep_limits, solve, starts_of, weigh_arms
 from behaviours.exact_feet import EXACT, pose_exactly
 from behaviours.mirroring import (
     mirror_choices,
@@ -106,20 +106,21 @@ def solve_protection(body: Body, task: Task, settings: Settings) -> Protection:
 
 
 def _solve_protection(body: Body, task: Task, settings: Settings) -> Protection:
-    controls = controls_from_threat(task.threat.speed_norm, task.threat.size_norm)
     posed = new_posed()
+    controls = controls_allowed(task, posed, settings)
     rules_shift = pose_exactly(task, np.zeros(3), controls, posed, settings.balance.foot_tolerance_m)
     # the rules pose is the start: what it took to plant its feet exactly belongs to it
     task = task._replace(start=task.start._replace(root_m=task.start.root_m + rules_shift))
     rules, com_rules = _pose_of(posed), np.array(centre_of_mass(task.bones, posed.positions, posed.orientations))
     support_rules = polygon_of(body, posed.positions, posed.orientations, task.feet.held)
-    plain = new_posed()  # as the search sees it: elbows at their swivels
-    update_pose(task, np.zeros(3), controls, EXACT, False, plain)
+    plain = new_posed()  # as the search sees it: arms as the rules want them
+    apply_rules(task, np.zeros(3), controls, EXACT, plain)
     reference = refer_to(task, plain, com_rules, controls, settings)
 
     start = np.concatenate([np.zeros(3), controls])
     residuals, form = np.empty(RESIDUALS), FORMS.index(settings.objective.form)
-    measure_into(task, reference, start, controls, posed, residuals)
+    shown = reference._replace(palms=posed.palms.copy())  # what is reported: of the poses that are shown
+    measure_into(task, shown, start, controls, posed, residuals)
     errors_initial = term_errors(residuals) | {"total": float(total_error(residuals, reference, form))}
     if not task.feet.held.any():
         return Protection(
@@ -128,14 +129,14 @@ def _solve_protection(body: Body, task: Task, settings: Settings) -> Protection:
             SolverReport(settings.solver.method, 0, 0, 0, "not needed", 0), task, reference,
         )  # fmt: skip
     solution, polishing = solve(task, reference, form, start, posed, settings)
-    solution = keep_limits(task, reference, solution, posed, settings)
-    solution = weigh_arms(task, reference, solution, form, posed, settings)
+    solution, weighed = weigh_arms(task, reference, solution, form, posed, settings)
+    solution = keep_limits(task, weighed, solution, posed, settings)
     shift, controls_end = solution.variables[:3].copy(), np.clip(solution.variables[3:], 0.0, 1.0)
     shift += pose_exactly(task, shift, controls_end, posed, settings.balance.foot_tolerance_m)
     sustained, com = _pose_of(posed), np.array(centre_of_mass(task.bones, posed.positions, posed.orientations))
     support = polygon_of(body, posed.positions, posed.orientations, task.feet.held)
     final = np.concatenate([shift, solution.variables[3:]])
-    measure_into(task, reference, final, controls_end, posed, residuals)
+    measure_into(task, shown, final, controls_end, posed, residuals)
     errors = term_errors(residuals) | {"total": float(total_error(residuals, reference, form))}
     case = case_of(inside(support_rules, com_rules[:2]), inside(support, com[:2]))
     report = SolverReport(
@@ -150,6 +151,16 @@ def _solve_protection(body: Body, task: Task, settings: Settings) -> Protection:
         rules, sustained, controls, controls_end, com_rules, com, np.array(reference.com_wanted_m), support,
         case, errors_initial, errors, task.choices, task.feet, report, task, reference,
     )  # fmt: skip
+
+
+def controls_allowed(task: Task, posed: Posed, settings: Settings) -> np.ndarray:
+    """(7,) the controls that the threat asks for, with as much of lean and turn as the planted legs allow.
+
+    Both take the pelvis along; over feet that stand crossed or far apart a hip would be beyond its limits.
+    """
+    wanted = np.concatenate([np.zeros(3), controls_from_threat(task.threat.speed_norm, task.threat.size_norm)])
+    _, upright = starts_of(wanted)
+    return draw_back(task, upright, wanted, posed, settings.balance.foot_tolerance_m)[3:]
 
 
 def refer_to(task: Task, posed: Posed, com_m, controls, settings: Settings) -> Reference:
@@ -175,7 +186,6 @@ def refer_to(task: Task, posed: Posed, com_m, controls, settings: Settings) -> R
         controls.copy(),
         weights,
         o.smoothing_m,
-        False,
         SOFT_REACH_M,
     )
 

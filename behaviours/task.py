@@ -16,7 +16,7 @@ from engine.body.capsules import CAPSULES, body_capsules
 from engine.body.skeleton import ANKLES, ELBOWS, JOINT_COUNT, KNEES, WRISTS, Body
 
 Triple = tuple[float, float, float]
-OBSTACLES = ("belly", "chest", "upper_chest", "head")
+OBSTACLES = ("pelvis", "belly", "chest", "upper_chest", "head")
 
 
 class Bones(NamedTuple):
@@ -42,7 +42,9 @@ class Build(NamedTuple):
     head_radius_m: float
     hand_radius_m: float
     arm_radius_m: tuple[float, float]  # of the forearms
-    obstacle_radius_m: tuple[float, float, float, float]  # of OBSTACLES
+    hand_start_m: tuple[Triple, Triple]  # both ends of the hands' capsules, in the wrists' frames
+    hand_end_m: tuple[Triple, Triple]
+    obstacle_radius_m: tuple[float, float, float, float, float]  # of OBSTACLES
 
 
 class Start(NamedTuple):
@@ -107,7 +109,7 @@ class Posed(NamedTuple):
     orientations: np.ndarray  # (J, 4) world
     palms: np.ndarray  # (2, 3) world
     foot_miss_m: np.ndarray  # (2,) how far each held foot is from where it should stand
-    trouble: np.ndarray  # (4,) what limits and trunk still forbid, radians: left and right leg, left and right arm
+    trouble: np.ndarray  # (2,) what limits still forbid each leg, radians
     obstacles: np.ndarray  # (C, 6) both ends of what arms must clear, in the world
     made_from: np.ndarray  # (3, 6) what trunk and legs, left and right arm were last made from; see apply_rules
 
@@ -139,6 +141,8 @@ def bones_of(body: Body) -> tuple[Bones, Build]:
         float(capsules.radius_m[row("head")]),
         float(capsules.radius_m[row("left_hand")]),
         tuple(capsules.radius_m[[row("left_forearm"), row("right_forearm")]].tolist()),
+        (_triple(capsules.start_m[row("left_hand")]), _triple(capsules.start_m[row("right_hand")])),
+        (_triple(capsules.end_m[row("left_hand")]), _triple(capsules.end_m[row("right_hand")])),
         tuple(capsules.radius_m[obstacles].tolist()),
     )
     return bones, build
@@ -152,7 +156,7 @@ def new_posed():
         np.empty((JOINT_COUNT, 4)),
         np.zeros((2, 3)),
         np.zeros(2),
-        np.zeros(4),
+        np.zeros(2),
         np.zeros((len(OBSTACLES), 6)),
         np.full((3, 6), np.nan),
     )

@@ -44,7 +44,6 @@ class Reference(NamedTuple):
     controls: np.ndarray  # (7,)
     weights: tuple[float, ...]  # one a term
     smoothing_m: float
-    free_arms: bool  # see apply_rules.update_pose: False for a search
     soft_m: float  # over which a leg's reach ends
 
 
@@ -57,7 +56,7 @@ def residuals_into(task, reference, variables, controls, posed, residuals):
     """
     for i in range(CONTROL_COUNT):
         controls[i] = min(1.0, max(0.0, variables[3 + i]))
-    update_pose(task, variables, controls, reference.soft_m, reference.free_arms, posed)
+    update_pose(task, variables, controls, reference.soft_m, posed)
     measure_into(task, reference, variables, controls, posed, residuals)
 
 

@@ -14,6 +14,7 @@ from numba import njit
 
 from engine.body.skeleton import LEFT
 from engine.maths import quaternion, vector
+from engine.maths.inner_kernel import inner_kernel
 
 LINE_SOFTNESS_M = 0.05  # over which "the line is just within reach" becomes "it passes farther off"
 
@@ -67,6 +68,26 @@ def palm_target(side, shoulder, reach, target, line_point, tangent, across, tors
     palm = vector.along(palm, across, offset_m if side == LEFT else -offset_m)
     ahead = vector.inner(vector.subtract(palm, shoulder), torso_x)
     return vector.along(palm, torso_x, smooth_max(ahead, 0.0, soften_m) - ahead)
+
+
+@njit(cache=True)
+def fingers_from_up(arm, up, group):
+    """How far a blocking hand's fingers are turned from upright, inwards, radians.
+
+    arm: unit, from shoulder to palm; up: where upright fingers point. A hand held up to the face keeps its fingers up;
+    one that hangs before the hips could do so only with its wrist bent back as far as it goes: its fingers point down.
+    """
+    hanging = -vector.inner(arm, up)
+    share = (hanging - group.fingers_up_until) / max(group.fingers_down_from - group.fingers_up_until, 1e-9)
+    share = min(1.0, max(0.0, share))
+    return group.fingers_down_rad * share * share * (3.0 - 2.0 * share)
+
+
+@inner_kernel
+def fingers_turned(side, up, across, turn_rad):
+    """Where the fingers point: unit, `up` turned inwards, away from this hand's own side of the line."""
+    inwards = vector.scale(across, -math.sin(turn_rad) if side == LEFT else math.sin(turn_rad))
+    return vector.unit(vector.add(vector.scale(up, math.cos(turn_rad)), inwards), up)
 
 
 @njit(cache=True)

@@ -28,20 +28,45 @@ def wrap_share(torso_x, towards_threat, group):
 
 
 @inner_kernel
-def wrapped_palm(side, head_centre, head, apart_m, group):
-    """Where one palm centre goes: behind the head, in the world. `head` is the head's orientation; apart_m
-    from the head's middle to the hand's, where they touch."""
-    outward = 1.0 if side == LEFT else -1.0
-    behind = -(apart_m + group.palm_gap_m)
-    return vector.add(head_centre, quaternion.rotate(head, (behind, outward * group.palm_apart_m, -group.palm_below_m)))
+def guarded_head(head, towards_threat, group):
+    """The head's orientation, turned so that its back follows the threat a little: where the hands are put around it.
+
+    Between a threat that comes straight at the back of the head and one from aside the hands go round with it.
+    """
+    back = quaternion.rotate(head, (-1.0, 0.0, 0.0))
+    axis = vector.cross(back, towards_threat)
+    sine = vector.length(axis)
+    axis = vector.unit(axis, (0.0, 0.0, 1.0))
+    return quaternion.multiply(quaternion.from_axis_angle(axis, group.follow_rad * sine), head)
 
 
 @inner_kernel
-def wrapped_hand(side, head, group):
+def wrapped_palm(side, head_centre, guarded, apart_m, group):
+    """Where one palm centre goes, in the world: on the back of the head, to its own side.
+
+    guarded: see guarded_head; apart_m: from the head's axis to the hand's, where they touch.
+    """
+    outward = 1.0 if side == LEFT else -1.0
+    away = apart_m + group.palm_gap_m
+    x, y = -away * math.cos(group.palm_aside_rad), outward * away * math.sin(group.palm_aside_rad)
+    return vector.add(head_centre, quaternion.rotate(guarded, (x, y, -group.palm_below_m)))
+
+
+@inner_kernel
+def wrapped_hand(side, guarded, group):
     """Palm normal and fingers of one hand (two unit vectors, world): palm on the head, fingers up and inwards."""
-    inward = -1.0 if side == LEFT else 1.0
-    fingers = (0.0, inward * math.sin(group.fingers_inward_rad), math.cos(group.fingers_inward_rad))
-    return quaternion.rotate(head, (1.0, 0.0, 0.0)), quaternion.rotate(head, fingers)
+    outward = 1.0 if side == LEFT else -1.0
+    cosine, sine = math.cos(group.palm_aside_rad), outward * math.sin(group.palm_aside_rad)
+    inwards, up = math.sin(group.fingers_inward_rad), math.cos(group.fingers_inward_rad)
+    fingers = (-inwards * outward * sine, -inwards * outward * cosine, up)
+    return quaternion.rotate(guarded, (cosine, -sine, 0.0)), quaternion.rotate(guarded, fingers)
+
+
+@inner_kernel
+def elbow_direction(side, group):
+    """Where one elbow points, in the chest's frame: ahead, around the side of the head."""
+    outward = 1.0 if side == LEFT else -1.0
+    return (math.cos(group.elbow_aside_rad), outward * math.sin(group.elbow_aside_rad), 0.0)
 
 
 @njit(cache=True)

@@ -1,4 +1,4 @@
-"""What a limit or the trunk forbids is answered by the elbow or knee, as little as it must, hand and foot staying."""
+"""What a limit forbids a planted leg is answered by the knee, as little as it must, the foot staying."""
 
 import math
 
@@ -12,7 +12,7 @@ from behaviours.rules.controls import controls_from_threat
 from behaviours.settings import Settings
 from behaviours.task import new_posed
 from engine.body.limits import from_components
-from engine.body.skeleton import ANKLES, ELBOWS, HIPS, WRISTS
+from engine.body.skeleton import ANKLES, HIPS
 from tests.behaviours.people import BODY, BOTH, coming, standing
 
 LOW, HIGH = (-0.5, -0.6, -0.7), (0.5, 0.6, 0.7)
@@ -54,20 +54,3 @@ def test_a_knee_gives_way_and_the_foot_stays():
     assert freedom.components(tuple(held.rotations[HIPS[0]]))[2] >= tight.start.low_rad[HIPS[0], 2]
     assert held.positions[ANKLES[0]] == pytest.approx(free.positions[ANKLES[0]], abs=1e-9)
     assert held.orientations[ANKLES[0]] == pytest.approx(free.orientations[ANKLES[0]], abs=1e-9)
-
-
-def test_an_elbow_comes_out_of_the_chest_and_the_wrist_stays():
-    task = task_with()
-    controls = controls_from_threat(0.2, 0.2)
-    free = posed_with(task, controls)
-    # a fatter chest: as far as the elbow and a little more
-    elbow = free.positions[ELBOWS[0]]
-    ends = np.concatenate([elbow + [0.0, -0.05, 0.0], elbow + [0.0, -0.08, 0.0]])[None]
-    args = (task.bones.offset_m, task.start.low_rad, task.start.high_rad, 0.01, 0.04, ends, (0.05,))
-    rotations, positions, orientations = free.rotations.copy(), free.positions.copy(), free.orientations.copy()
-    wrong = freedom.free_arm(0, *args, rotations, positions, orientations)
-    assert wrong == 0.0
-    assert positions[WRISTS[0]] == pytest.approx(free.positions[WRISTS[0]], abs=1e-9)
-    assert freedom.depth_m(tuple(positions[ELBOWS[0]]), tuple(positions[WRISTS[0]]), 0.04, ends, (0.05,)) == 0.0
-    # as little as it must: it just touches
-    assert freedom.depth_m(tuple(positions[ELBOWS[0]]), tuple(positions[WRISTS[0]]), 0.041, ends, (0.05,)) > 0.0

@@ -7,7 +7,7 @@ import pytest
 
 from behaviours.components import Phase, Reaction
 from behaviours.scenario import load_scenario, parse_scenario
-from behaviours.settings import CHOICES
+from behaviours.settings import CHOICES, Settings
 from behaviours.simulation import Simulation
 from engine.clips.library import find_clip
 from tests.behaviours.runs import events, phases, track_of
@@ -102,11 +102,15 @@ def test_the_usual_run_is_a_whole_one(usual):
     assert phases(usual) == ["play", "startle", "protect", "respond", "recover_blend", "recover_return", "play"]
 
 
-def test_the_response_lasts_as_long_as_is_asked():
+def test_the_response_lasts_as_long_as_is_asked_or_as_the_ball_still_presses():
+    response = Settings().response
     for response_s in (0.05, 0.1):
-        run = played(USUAL, f"character.0.response_s={response_s}")
-        rows = [row for row in run.report()["phases"] if row["name"] == "respond"]
-        assert rows[0]["to_s"] - rows[0]["from_s"] == pytest.approx(response_s, abs=1 / 120)
+        report = played(USUAL, f"character.0.response_s={response_s}").report()
+        row = next(row for row in report["phases"] if row["name"] == "respond")
+        touched_s = max(event["t_s"] for event in report["events"] if event["kind"] == "contact")
+        pressed_s = touched_s + response.contact_s + response.quiet_s - row["from_s"]
+        expected_s = response_s if touched_s == row["from_s"] else max(response_s, pressed_s)
+        assert row["to_s"] - row["from_s"] == pytest.approx(expected_s, abs=1.5 / 120)
 
 
 def test_the_text_s_account_gives_a_fast_threat_more_time(usual):

@@ -43,9 +43,9 @@ def test_override_by_dotted_name_keeps_types_and_the_original():
 
 
 def test_degrees_at_the_interface():
-    after = override(Settings(), {"lean_turn.neck_deg": [40, 30, 60], "wrap.swivel_deg": 90})
+    after = override(Settings(), {"lean_turn.neck_deg": [40, 30, 60], "wrap.elbow_aside_deg": 90})
     assert after.lean_turn.neck_rad == pytest.approx((math.radians(40), math.radians(30), math.radians(60)))
-    assert after.wrap.swivel_rad == pytest.approx(math.pi / 2)
+    assert after.wrap.elbow_aside_rad == pytest.approx(math.pi / 2)
 
 
 @pytest.mark.parametrize(

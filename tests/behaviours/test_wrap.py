@@ -25,10 +25,11 @@ def test_hands_are_behind_the_head_and_elbows_before_it(azimuth):
     assert found.choices.wrap == 1.0
     positions, orientations = joints_of(BODY, found.sustained)
     for side in range(2):
-        hand = quaternion.unrotate(orientations[HEAD], positions[WRISTS[side]] - positions[HEAD])
+        palm = positions[WRISTS[side]] + quaternion.rotate(orientations[WRISTS[side]], BODY.palm_m[side])
+        hand = quaternion.unrotate(orientations[HEAD], palm - positions[HEAD])
         elbow = quaternion.unrotate(orientations[BACK], positions[ELBOWS[side]] - positions[HEAD])
         assert hand[0] < -0.05  # behind
-        assert elbow[0] > hand[0] + 0.1  # around the side
+        assert elbow[0] > quaternion.unrotate(orientations[BACK], palm - positions[HEAD])[0] + 0.1  # around the side
         assert (elbow[1] > 0.0) == (side == 0)
 
 
@@ -44,14 +45,17 @@ def test_a_palm_never_goes_through_the_head():
 
 
 def test_hands_do_not_jump_as_the_threat_goes_round():
-    """2 degrees of azimuth move a hand of the rules pose by a few centimetres, through block, mixture and wrap."""
+    """Half a degree of azimuth moves hands and elbows by some centimetres, through block, mixture and wrap.
+
+    The whole way from before the face to behind the head lies within some 17 degrees.
+    """
     before, farthest = None, 0.0
-    for azimuth in np.arange(40, 150, 2.0):
-        hands = joints_of(BODY, met(coming(azimuth, size=0.3)).rules)[0][list(WRISTS)]
+    for azimuth in np.arange(70, 100, 0.5):
+        arms = joints_of(BODY, met(coming(azimuth, size=0.3)).rules)[0][list(WRISTS + ELBOWS)]
         if before is not None:
-            farthest = max(farthest, np.linalg.norm(hands - before, axis=1).max())
-        before = hands
-    assert farthest < 0.15
+            farthest = max(farthest, np.linalg.norm(arms - before, axis=1).max())
+        before = arms
+    assert farthest < 0.09
 
 
 def test_the_dots_are_settings():
