@@ -102,6 +102,17 @@ def test_a_drag_within_one_frame_arrives_where_it_ends(stage):
     assert stage.values["share"] == dragged
 
 
+def test_a_click_a_drag_and_another_click_within_one_frame_all_arrive(stage):
+    stage.frames(
+        12,
+        *(at(300, 134), press(300, 134), release(300, 134)),
+        *(at(310, 31), press(310, 31), at(340, 31), at(360, 31), release(360, 31)),
+        *(at(300, 134), press(300, 134), release(300, 134)),
+    )
+    assert stage.values["share"] > 0.6
+    assert stage.values["clicks"] == 2
+
+
 def test_a_drag_over_frames_arrives_at_the_same_place(stage):
     for events in ((at(310, 31), press(310, 31)), (at(340, 31),), (at(360, 31),), (release(360, 31),)):
         stage.frames(2, *events)
@@ -133,10 +144,13 @@ def test_typing_takes_the_keys_until_it_ends(stage):
     stage.frames(5, at(300, 108), press(300, 108), release(300, 108))
     assert stage.frames(5, Key("p", "press"), Text("h"), Text("ö"), Key("p", "release")) == []
     assert stage.values["word"] == "hö"
+    backspace = (Key("backspace", "press"), Key("backspace", "release"))
+    stage.frames(8, *backspace, *backspace, Text("a"))
+    assert stage.values["word"] == "a"
     # the same frame may bring the press that ends the typing, and the next key
     assert Key("p", "press") in stage.frames(5, press(50, 50), release(50, 50), Key("p", "press"))
     assert stage.frames(1, Key("p", "press")) == [Key("p", "press")]
-    assert stage.values["word"] == "hö"
+    assert stage.values["word"] == "a"
 
 
 def test_a_canvas_knows_the_mouse(stage):

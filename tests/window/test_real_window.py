@@ -12,12 +12,17 @@ import numpy as np
 import pytest
 from PIL import Image
 
+from demos.window.panels import make_panels
 from engine.render.capture import count_frames
 from tests.window.desk import PATIENCE_S, Desk, needs_display
 
 pytestmark = needs_display
 WIDTH, HEIGHT = 960, 600
 PANEL = (650, 950)  # left and right of the panel, pixels
+TABS = {
+    panel.title: (PANEL[0] + 45 + 70 * (number % 4), 30 + 25 * (number // 4))
+    for number, panel in enumerate(make_panels())
+}
 PAPER = np.array((0.972, 0.966, 0.955))
 TIMELINE_Y, TIMELINE_X = 552, (22, 938)  # the phases, and where the line begins and ends
 TICK_PX = (TIMELINE_X[1] - TIMELINE_X[0]) / (12.0 * 120.0)
@@ -93,7 +98,7 @@ def test_a_throw_is_held_and_let_go_at_what_is_under_the_cursor(desk):
 
 
 def test_a_slider_is_dragged_and_the_threat_sent_by_its_button(desk):
-    desk.click(PANEL[0] + 45, 30)  # the Threat tab
+    desk.click(*TABS["Threat"])
     desk.drag(PANEL[0] + 211, 120, PANEL[0] + 150, 120)  # azimuth, to the left
     time.sleep(0.3)
     desk.click(PANEL[0] + 150, 412)  # Send it now
@@ -169,7 +174,7 @@ def test_a_screenshot_is_the_picture_without_what_lies_on_it(desk):
 
 
 def test_search_takes_the_keys_while_it_is_typed_in(desk):
-    desk.click(PANEL[0] + 45, 55)  # the Clips tab
+    desk.click(*TABS["Clips"])
     time.sleep(2.0)
     desk.click(PANEL[0] + 100, 98)
     time.sleep(2.0)
@@ -209,7 +214,7 @@ def test_minimised_it_lives_on(desk):
 
 
 def test_closed_it_ends_in_order_and_remembers(desk):
-    desk.click(PANEL[0] + 115, 55)  # the View tab
+    desk.click(*TABS["View"])
     time.sleep(2.0)
     desk.key("g")
     time.sleep(1.0)
@@ -221,7 +226,7 @@ def test_closed_it_ends_in_order_and_remembers(desk):
     assert kept["view"]["ghost_rules"] is True
     desk.start("sway", "--size", f"{WIDTH}x{HEIGHT}", "--quality", "fastest")
     desk.until(lambda: is_paper(desk, 655, 200), "the panel")
-    desk.click(PANEL[0] + 45, 30)
+    desk.click(*TABS["Threat"])
     time.sleep(2.0)
     desk.quit()
     assert desk.programs[1].wait(PATIENCE_S) == 0

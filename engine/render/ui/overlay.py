@@ -25,7 +25,7 @@ class Overlay:
         io = imgui.get_io()
         io.set_ini_filename("")
         io.set_log_filename("")
-        io.config_input_trickle_event_queue = True
+        io.config_input_trickle_event_queue = False  # `_share` does it, and knows about drags
         apply_style()
         self.painter = Painter(gl)
         self.ui = Ui()
@@ -59,18 +59,23 @@ class Overlay:
         imgui.destroy_context(self.context)
 
     def _share(self) -> Iterator[Event]:
-        """What of the events imgui is told in this frame: a press ends it, and so does a release after a move.
+        """What of the events imgui is told in this frame: up to the first button that goes down or up, or until a key
+        changes a second time. A release after a move waits for the next frame.
 
-        Where frames are slow, a whole drag may come between two of them, and imgui does not look where the mouse was
-        when it sees the button up.
+        Where frames are slow a whole drag may come between two of them, and imgui only looks at the state that it is
+        left in, and not at where the mouse went when it sees the button up.
         """
-        moved = False
+        moved, keys = False, set()
         while self._waiting:
             event = self._waiting[0]
             if isinstance(event, MouseButton) and not event.pressed and moved:
                 return
+            if isinstance(event, Key):
+                if event.name in keys:
+                    return
+                keys.add(event.name)
             yield self._waiting.popleft()
-            if isinstance(event, MouseButton) and event.pressed:
+            if isinstance(event, MouseButton):
                 return
             moved = moved or isinstance(event, MouseMove)
 
