@@ -3,7 +3,7 @@ bar.
 
 A case is a set, an intensity in its range, mostly an object, often one or two wrist targets. Each is solved, and once
 more a hundredth of intensity on, where nothing may jump. Then a crouch, a twist and a shift of the weight are played
-on narrow and wide feet.
+on narrow and wide feet, and a timid and a bold character meet the same threats.
 """
 
 from __future__ import annotations
@@ -98,6 +98,7 @@ def bars(count: int = CASES, seed: int = SEED, progress: Callable[[Any], Any] = 
         _against_plain(body),
         *_continuity_bars(body, solved),
         *_sequence_bars(body),
+        *_meeting_bars(),
     ]  # fmt: skip
 
 
@@ -244,6 +245,19 @@ def _sequence_bars(body: Body) -> list[Bar]:
         Bar("crouch, twist, shift: foot motion, mm", foot_mm, "<= 0.1", foot_mm <= 0.1, f"{eased} keys eased"),
         Bar("crouch, twist, shift: foot turn, deg", foot_deg, "<= 0.01", foot_deg <= 0.01),
         Bar("balance with feedback, steady, mm", steady_mm, "<= 5", steady_mm <= 5.0),
+    ]  # fmt: skip
+
+
+def _meeting_bars() -> list[Bar]:
+    from demos.benchmarks.stance_meeting import pairs
+
+    met = pairs()
+    nearest, worst = min(met, key=lambda pair: pair.apart_m), max(met, key=lambda pair: pair.off_balance_m)
+    apart_cm, off_cm = 100.0 * nearest.apart_m, 100.0 * worst.off_balance_m
+    return [
+        Bar("timid against bold: wrists apart, least, cm", apart_cm, ">= 10", apart_cm >= 10.0,
+            f"{len(met)} threats; {nearest.what}"),
+        Bar("their balance error, worst, cm", off_cm, "<= 2", off_cm <= 2.0, worst.what),
     ]  # fmt: skip
 
 
