@@ -7,9 +7,11 @@ some cases once more in a mirror. What came out is summed up in `motion_table`, 
 
 from __future__ import annotations
 
+import contextlib
 import multiprocessing
 import os
-from collections.abc import Callable, Iterable
+import signal
+from collections.abc import Callable, Iterable, Iterator
 from concurrent.futures import ProcessPoolExecutor
 from typing import NamedTuple
 
@@ -45,12 +47,25 @@ def bench(count: int, seed: int = 1, progress: Progress = lambda rows, _total: r
     fresh = multiprocessing.get_context("spawn")
     with ProcessPoolExecutor(processes, mp_context=fresh, initializer=_begin) as pool:
         try:
-            poses = pool.submit(_poses, count, seed)
+            with _deaf_to_interrupts():
+                poses = pool.submit(_poses, count, seed)
             rows = list(progress(pool.map(_case, cases), len(cases)))
             return Found(clips, rows[:count], rows[count:], poses.result())
         except BaseException:
-            pool.shutdown(cancel_futures=True)
+            pool.shutdown(wait=False, cancel_futures=True)
+            for process in multiprocessing.active_children():
+                process.terminate()
             raise
+
+
+@contextlib.contextmanager
+def _deaf_to_interrupts() -> Iterator[None]:
+    """Processes that are started meanwhile do not hear Ctrl-C: this one does, and ends them in order."""
+    before = signal.signal(signal.SIGINT, signal.SIG_IGN)
+    try:
+        yield
+    finally:
+        signal.signal(signal.SIGINT, before)
 
 
 _clips: dict[str, Clip] = {}

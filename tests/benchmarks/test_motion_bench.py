@@ -3,6 +3,9 @@
 from __future__ import annotations
 
 import math
+import multiprocessing
+import signal
+import time
 
 import numpy as np
 import pytest
@@ -228,6 +231,20 @@ def test_a_small_run_of_it(monkeypatch):
     assert {k: v for k, v in again.items() if k not in timed} == {
         k: v for k, v in found.rows[1].items() if k not in timed
     }
+
+
+def test_interrupted_it_ends_its_processes_at_once(library_clip):
+    library_clip("walk")
+
+    def ctrl_c(rows, total):
+        raise KeyboardInterrupt
+
+    begun = time.monotonic()
+    with pytest.raises(KeyboardInterrupt):
+        motion.bench(40, processes=2, progress=ctrl_c)
+    assert not multiprocessing.active_children()
+    assert time.monotonic() - begun < 20.0
+    assert signal.getsignal(signal.SIGINT) is signal.default_int_handler  # Ctrl-C is heard again
 
 
 def test_the_mirror_is_held_up_to_the_right_run():
