@@ -236,6 +236,7 @@ class Play:
         return {
             "view": vars(session.view),
             "tab": self.tab,
+            "size": [round(side / self.scale) for side in self.session.size_px],
             "slow_motion": session.slow_motion.enabled,
             "auto_fire_s": session.auto_fire_s,
             "auto_vary": session.auto_vary,

@@ -67,7 +67,7 @@ def _window(args: argparse.Namespace) -> None:
     from demos.kernels import forget_stale
     from demos.play import play_of
     from demos.window.layer import PanelLayer
-    from demos.window.memory import load_memory, memory_path, save_memory
+    from demos.window.memory import kept_size, load_memory, memory_path, save_memory
     from engine.render.camera import orbit_camera
     from engine.render.context import make_context
     from engine.render.controls import CameraHands
@@ -82,6 +82,8 @@ def _window(args: argparse.Namespace) -> None:
     play = play_of(scenario, folder, Path.cwd())
     kept, trouble = load_memory(memory_path())
     play.remember(kept)
+    if args.size == USUAL_SIZE:
+        shot = shot._replace(size_px=kept_size(kept) or shot.size_px)
     if trouble:
         play.session.say(trouble, alarm=True)
     for name in shot.ghosts:

@@ -49,6 +49,15 @@ def save_memory(path: Path, kept: dict[str, Any]) -> str | None:
     return None
 
 
+def kept_size(kept: dict[str, Any]) -> tuple[int, int] | None:
+    """The window's size when it was last closed, in points; None where it was none (minimised, or damaged)."""
+    size = kept.get("size")
+    if not isinstance(size, list) or len(size) != 2 or not all(isinstance(side, int) for side in size):
+        return None
+    width, height = size
+    return (width, height) if 160 <= width <= 8192 and 120 <= height <= 8192 else None
+
+
 def taken_over(target: object, kept: Any) -> None:
     """Puts values of known names and of the same kind into an object's attributes; anything else is passed over."""
     if not isinstance(kept, dict):

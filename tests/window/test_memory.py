@@ -7,7 +7,7 @@ import pytest
 
 from demos.play import play_of
 from demos.running import open_scenario
-from demos.window.memory import load_memory, memory_path, save_memory, taken_over
+from demos.window.memory import kept_size, load_memory, memory_path, save_memory, taken_over
 
 
 @dataclass
@@ -68,6 +68,12 @@ def test_values_of_the_same_kind_are_taken_over():
     things = Things()
     taken_over(things, {"on": False, "share": 1, "word": "b"})
     assert things == Things(on=False, share=1.0, word="b")
+
+
+@pytest.mark.parametrize("size", [None, [0, 0], [1280], ["a", "b"], [1e9, 3], {"w": 1}, [1280, 90000]])
+def test_a_size_that_is_none_is_passed_over(size):
+    assert kept_size({"size": size}) is None
+    assert kept_size({"size": [900, 700]}) == (900, 700)
 
 
 def test_a_window_starts_as_the_last_one_ended(tmp_path):
