@@ -26,6 +26,9 @@ if TYPE_CHECKING:
     from behaviours.stance.shape import Shape
 
 
+MOST_SOFTNESS_M = 0.05
+
+
 class Worn(NamedTuple):
     """What a stance puts under a pose; numbers only, so that kernels take it whole."""
 
@@ -82,15 +85,30 @@ def wear(body, root_m, rotations, worn):
     root_m[2] -= worn.drop_m
     joints_into(body.offset_m, root_m, rotations, positions, orientations)
     # a pelvis that shifts or turns may leave a foot behind: it sinks by what that costs beyond the clip's own stretch
-    drop = 0.0
+    drop, width_m = 0.0, _softness_m(worn)
     for side in range(2):
-        drop = max(drop, drop_to_reach(body, positions[HIPS[side]], ankles_m[side], side) - own_drops[side])
-        drop = max(drop, _least_drop(body, positions[HIPS[side]], ankles_m[side], side))
+        needed = drop_to_reach(body, positions[HIPS[side]], ankles_m[side], side) - own_drops[side]
+        needed = max(needed, _least_drop(body, positions[HIPS[side]], ankles_m[side], side))
+        drop = _soft_max(drop, needed, width_m)
     root_m[2] -= drop
     for j in range(JOINT_COUNT):
         positions[j, 2] -= drop
     for side in range(2):
         apply_leg(body, rotations, positions, orientations, side, ankles_m[side], feet[side], swivels[side], 0.0)
+
+
+@njit(cache=True)
+def _softness_m(worn):
+    """Over how many metres a pelvis begins to sink: with the stance's own shift, so that nothing is worn at none."""
+    shift = math.sqrt(worn.drop_m * worn.drop_m + worn.ahead_m * worn.ahead_m + worn.left_m * worn.left_m)
+    return min(0.5 * shift, MOST_SOFTNESS_M)
+
+
+@njit(cache=True)
+def _soft_max(a, b, width):
+    """The larger of two, never less, its corner rounded over a width: a pelvis that sinks does not set out at once."""
+    near = width - abs(a - b)
+    return max(a, b) + (near * near / (4.0 * width) if near > 0.0 else 0.0)
 
 
 @njit(cache=True)

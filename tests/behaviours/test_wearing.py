@@ -68,6 +68,19 @@ def test_a_hunched_head_is_lower_and_a_proud_one_no_lower():
     assert head_m("posture", 1.0)[2] > plain[2] - 0.01
 
 
+@pytest.mark.parametrize("stance", ["slovenly", "recoil-strong"])
+def test_a_pelvis_that_is_shifted_out_of_a_leg_s_reach_sinks_smoothly(stance, library_clip):
+    """Over a walk at 120 Hz the pelvis's height has no corners.
+
+    Without the rounded corner it is 6.4 mm a tick squared (92 m/s2) for the one and 4.6 for the other.
+    """
+    clip = library_clip("walk")
+    worn = worn_by(clip.body, stance, 1.0)
+    times_s = np.arange(0.0, 4.0, 1.0 / 120.0)
+    heights_m = np.array([worn_pose(clip.body, sample(clip, t), worn).root_m[2] for t in times_s])
+    assert 1000.0 * np.abs(np.diff(heights_m, 2)).max() < {"slovenly": 5.2, "recoil-strong": 2.6}[stance]
+
+
 def test_what_is_felt_is_clamped_and_falls_with_boldness():
     assert as_felt(0.5, 0.0, 0.5) == 0.5
     assert as_felt(0.5, 1.0, 0.5) == 0.0
