@@ -105,7 +105,7 @@ def hold_feet(body, goals, own_lengths, knees, weight, root_m, rotations, positi
     """Leg IK onto the goals of both feet; lowers the pelvis first where a goal is out of a leg's reach. In place.
 
     `own_lengths` (2,): how long the legs would be without any goal, see `drop_beyond_own`. `knees` at a weight of
-    their way.
+    their way. Returns by how much it lowers the pelvis, metres.
     """
     drop = 0.0
     for side in range(2):
@@ -122,6 +122,7 @@ def hold_feet(body, goals, own_lengths, knees, weight, root_m, rotations, positi
             swivel = swivel_at(knees, weight, side, goals.ankle_m[side], positions, orientations)
             target = reachable(body, vector.at(positions, HIPS[side]), goals.ankle_m[side], side, goals.bears[side])
             apply_leg(body, rotations, positions, orientations, side, target, goals.turned[side], swivel, 0.0)
+    return drop
 
 
 @njit(cache=True)

@@ -24,6 +24,7 @@ TRIES, LAST_TRIES = 5, 2
 # from two fifths of that to nearly all of it; of either, each try leaves less than a half
 GAIN = 1.5
 LAST_GAIN = 0.7
+AHEAD_GAIN = 1.0  # how far the COM hurries on along its line for a pelvis that has to sink by one
 LEGS_SHARE = 0.5  # of the pelvis's way that the legs go, feet held
 
 
@@ -31,20 +32,28 @@ LEGS_SHARE = 0.5  # of the pelvis's way that the legs go, feet held
 def balance(body, start, end, weight, goals, ways, knees, root_m, rotations, positions, orientations):
     """Moves the pelvis until the COM is on its line, everything else held where it belongs. In place.
 
-    start, end: BlendEnds; the pose is the first pass's. Returns how far limits keep either hand off its way, metres.
+    start, end: BlendEnds; the pose is the first pass's. Where a foot stands, or comes to stand, out of reach, the COM
+    is farther on along its line than the rest: at its end all feet are in reach. Returns how far limits keep either
+    hand off its way, metres.
 
     A straight knee moves ten times as far as the hip that bends it: were it let into the search, that would run away
-    from it. So the legs count as going half of the pelvis's way at first; as they do go only in the end, and not at
-    all where the blend begins and ends.
+    from it. So the legs count at first as going half of the pelvis's way; as they do go only in the end. And where the
+    blend begins and ends they count as going straight from end to end, since a knee there may leave being straight all
+    at once.
     """
-    wanted_m = vector.mix(start.com_m, end.com_m, weight)
     waist, back = quaternion.at(rotations, WAIST), quaternion.at(rotations, BACK)
-    led = hold_ends(body, start, end, weight, goals, ways, knees, root_m, rotations, positions, orientations)
+    led, sunk_m = hold_ends(body, start, end, weight, goals, ways, knees, root_m, rotations, positions, orientations)
+    far_m, ahead_m = max(vector.distance(start.com_m, end.com_m), 1e-9), 0.0
     legs, mass, legs_mass = legs_moment(body, positions, orientations)
+    first = legs_moment(body, start.positions, start.orientations)[0]
+    last = legs_moment(body, end.positions, end.orientations)[0]
     inside = 1.0 - (1.0 - min(max(4.0 * weight * (1.0 - weight), 0.0), 1.0)) ** 4
+    legs = vector.mix(vector.mix(first, last, weight), legs, inside)
     first_m = (root_m[0], root_m[1], root_m[2])
     for n in range(TRIES + LAST_TRIES):
         com_m = centre_of_mass(body, positions, orientations)
+        ahead_m = min(ahead_m + AHEAD_GAIN * sunk_m, max(1.0 - weight, 0.0) * far_m)
+        wanted_m = vector.mix(start.com_m, end.com_m, weight + ahead_m / far_m)
         off_m = vector.subtract(wanted_m, com_m)
         if n < TRIES:
             now, share = legs_moment(body, positions, orientations)[0], LEGS_SHARE * legs_mass
@@ -56,7 +65,9 @@ def balance(body, start, end, weight, goals, ways, knees, root_m, rotations, pos
                 root_m[k] += LAST_GAIN * inside * off_m[k]
         quaternion.put(rotations, WAIST, waist)
         quaternion.put(rotations, BACK, back)
-        led = hold_ends(body, start, end, weight, goals, ways, knees, root_m, rotations, positions, orientations)
+        led, sunk_m = hold_ends(
+            body, start, end, weight, goals, ways, knees, root_m, rotations, positions, orientations
+        )
     return led
 
 
@@ -76,12 +87,14 @@ def legs_moment(body, positions, orientations):
 
 @inner_kernel
 def hold_ends(body, start, end, weight, goals, ways, knees, root_m, rotations, positions, orientations):
-    """Feet, neck, head and hands where they belong at this weight, whatever the pelvis. In place; returns as `balance`.
+    """Feet, neck, head and hands where they belong at this weight, whatever the pelvis. In place.
+
+    Returns how far limits keep either hand off its way, and by how much the pelvis sinks for the feet, metres.
     """
     joints_into(body.offset_m, root_m, rotations, positions, orientations)
     first, last = leg_lengths(start.positions), leg_lengths(end.positions)
     lengths = (first[0] + weight * (last[0] - first[0]), first[1] + weight * (last[1] - first[1]))
-    hold_feet(body, goals, lengths, knees, weight, root_m, rotations, positions, orientations)
+    sunk_m = hold_feet(body, goals, lengths, knees, weight, root_m, rotations, positions, orientations)
     for side in range(2):
         if not goals.bound[side]:
             slerp_foot(body, start, end, weight, side, rotations, positions, orientations)
@@ -90,10 +103,9 @@ def hold_ends(body, start, end, weight, goals, ways, knees, root_m, rotations, p
     neck_m = vector.mix(vector.at(start.positions, NECK), vector.at(end.positions, NECK), weight)
     hold_neck(body, neck_m, root_m, rotations, positions, orientations)
     slerp_head(body, start, end, weight, rotations, orientations)
-    return (
-        follow_way(body, start, end, weight, 0, ways, rotations, positions, orientations),
-        follow_way(body, start, end, weight, 1, ways, rotations, positions, orientations),
-    )
+    left_m = follow_way(body, start, end, weight, 0, ways, rotations, positions, orientations)
+    right_m = follow_way(body, start, end, weight, 1, ways, rotations, positions, orientations)
+    return (left_m, right_m), sunk_m
 
 
 @inner_kernel
