@@ -99,22 +99,6 @@ def test_spin_turns_the_ball():
     assert abs(ball.turned[3]) == pytest.approx(1.0, abs=1e-9)
 
 
-def test_a_held_ball_is_not_flown():
-    free = {"free": True, "position_m": [30.0, 0.0, 3.0], "velocity_mps": [0.0, 0.0, 0.0]}
-    simulation = simulation_of([free], observe=False)
-    simulation.step()
-    simulation.step()
-    flight = simulation.world[Flight]
-    (row,) = simulation.world.rows(Flight)
-    at = flight.position_m[row].copy()
-    flight.held[row] = True
-    simulation.step()
-    np.testing.assert_array_equal(flight.position_m[row], at)
-    flight.held[row] = False
-    simulation.step()
-    assert flight.position_m[row, 2] < at[2]
-
-
 def test_a_ball_far_from_everybody_is_taken_away_and_one_in_play_is_not():
     gone = {"free": True, "position_m": [90.0, 0.0, 0.105], "velocity_mps": [0.0, 0.0, 0.0]}
     simulation = simulation_of([gone], duration_s=7.0, observe=False)

@@ -25,7 +25,7 @@ def test_phases_last_as_long_as_the_thesis_says(blocked):
 
 
 def test_contact_is_within_a_tick_of_the_plan(blocked):
-    (contact,) = events(blocked, "contact")
+    contact, *_ = events(blocked, "contact")  # the other arm may be touched as the ball goes on
     assert abs(contact["late_s"]) <= TICK_S
     assert contact["part"].endswith(("hand", "forearm"))
 
