@@ -13,8 +13,12 @@ import pytest
 from PIL import Image
 
 from demos.window.panels import make_panels
+from engine.body.skeleton import Pose
+from engine.clips.synthetic import sway
+from engine.clips.write_bvh import bvh_text
 from engine.render.capture import count_frames
 from tests.window.desk import PATIENCE_S, Desk, needs_display
+from tests.window.dropping import drop
 
 pytestmark = needs_display
 WIDTH, HEIGHT = 960, 600
@@ -194,6 +198,21 @@ def test_a_film_is_made_while_it_plays(desk):
     time.sleep(0.5)
     path = desk.file("film-1.mp4")
     assert 20 <= count_frames(path) <= 60 * PATIENCE_S
+
+
+def test_a_file_is_dropped_on_it(desk):
+    """One that is no clip first: it is said, and all goes on as it was."""
+    clip, bad = sway(), desk.folder / "bad.bvh"
+    bad.write_text("HIERARCHY\nROOT", encoding="utf-8")
+    assert drop(desk.env["DISPLAY"], int(desk.window), (450, 300), bad, PATIENCE_S)
+    time.sleep(1.0)
+    assert saved(desk, 6)["character"][0]["clip"] == "sway"
+    good = desk.folder / "mine.bvh"
+    pose = Pose(clip.pose.root_m[:120], clip.pose.rotations[:120])
+    good.write_text(bvh_text(clip.body, pose, clip.fps), encoding="utf-8")
+    assert drop(desk.env["DISPLAY"], int(desk.window), (450, 300), good, PATIENCE_S)
+    time.sleep(3.0)
+    assert saved(desk, 7)["character"][0]["clip"] == str(good)
 
 
 def test_the_panels_go_along_with_the_size(desk):
