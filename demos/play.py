@@ -143,11 +143,11 @@ class Play:
         if view.plots and ui.height > 420.0:
             with ui.area("plots", MARGIN, bottom - 182.0, PLOT_WIDTH, 182.0, mouse=False):
                 draw_plots(ui, session)
-        if view.panels:
-            self._draw_panel(ui, bottom)
-        _draw_toasts(ui, session)
         if self.help:
             draw_help(ui)
+        elif view.panels:
+            self._draw_panel(ui, bottom)
+        _draw_toasts(ui, session)
 
     def _draw_panel(self, ui: Ui, bottom: float) -> None:
         with ui.area("panels", ui.width - PANEL_WIDTH - MARGIN, MARGIN, PANEL_WIDTH, bottom - MARGIN):

@@ -27,15 +27,15 @@ GROUPS: dict[str, tuple[KeyRow, ...]] = {
         KeyRow("S", "slow motion at the blow, on and off", "slow_motion", ("s",)),
         KeyRow("Backspace", "back to the start", "restart", ("backspace",)),
         KeyRow("End", "to the live edge", "live", ("end",)),
-        KeyRow("timeline", "a click jumps, a drag scrubs, the wheel zooms"),
+        KeyRow("timeline", "click jumps, drag scrubs, wheel zooms"),
     ),
     "Throwing": (
-        KeyRow("F, Ctrl-click", "throws at what is under the cursor; hold for speed"),
+        KeyRow("F, Ctrl-click", "throws at the cursor; hold for speed"),
         KeyRow("T", "sends the threat of the Threat panel", "send", ("t",)),
         KeyRow("A", "auto-fire, on and off", "auto_fire", ("a",)),
     ),
     "Looking": (
-        KeyRow("drag", "orbits; right drag or Shift drag pans, wheel zooms"),
+        KeyRow("drag", "orbits; right or Shift drag pans, wheel zooms"),
         KeyRow("X", "everybody into the picture"),
         KeyRow("double click", "selects a character"),
         KeyRow("V", "the camera follows, or stays", "follow", ("v",)),
@@ -55,15 +55,14 @@ GROUPS: dict[str, tuple[KeyRow, ...]] = {
 }
 ACTIONS = {key: row.action for rows in GROUPS.values() for row in rows for key in row.keys}
 COLUMNS = (("Time", "Throwing"), ("Looking", "Keeping"))
-WIDTH, HEIGHT, KEY_WIDTH, GAP = 370.0, 352.0, 96.0, 8.0
+WIDTH, HEIGHT, KEY_WIDTH, GAP, MARGIN = 370.0, 372.0, 96.0, 8.0, 10.0
 
 
 def draw_help(ui: Ui) -> None:
-    """Two sheets in the middle of the window."""
-    left = max((ui.width - len(COLUMNS) * (WIDTH + GAP) + GAP) / 2.0, 4.0)
+    """Two sheets where the panels are otherwise."""
+    left = max(ui.width - MARGIN - len(COLUMNS) * (WIDTH + GAP) + GAP, 4.0)
     for number, titles in enumerate(COLUMNS):
-        x, y = left + number * (WIDTH + GAP), max(ui.height * 0.45 - 0.5 * HEIGHT, 4.0)
-        with ui.area(f"help {number}", x, y, WIDTH, HEIGHT):
+        with ui.area(f"help {number}", left + number * (WIDTH + GAP), MARGIN, WIDTH, HEIGHT):
             for title in titles:
                 ui.heading(title)
                 for row in GROUPS[title]:

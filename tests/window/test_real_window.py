@@ -160,10 +160,10 @@ def test_single_steps_move_the_needle_by_ticks(desk):
 def test_help_shows_and_goes(desk):
     still = picture(desk)
     desk.key("F1")
-    desk.until(lambda: is_paper(desk, 469, 250), "the help")
+    desk.until(lambda: is_paper(desk, 567, 250), "the help")
     assert differ(still, picture(desk))
     desk.key("Escape")
-    desk.until(lambda: not is_paper(desk, 469, 250), "no help")
+    desk.until(lambda: not is_paper(desk, 567, 250), "no help")
 
 
 def test_a_screenshot_is_the_picture_without_what_lies_on_it(desk):
