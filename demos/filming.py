@@ -11,8 +11,9 @@ import numpy as np
 
 from behaviours.components import Character, Phase, Reaction
 from behaviours.scenario import Scenario
-from demos.frames import frames_of
+from demos.frames import frames_of, slowed_frames_of
 from demos.stage import floor_under, pelvis_m, scene_of
+from demos.window.slow_motion import SlowMotion
 from engine.core.clock import TICK_RATE_HZ
 from engine.core.errors import BadInput
 from engine.render.camera import Camera, follow, orbit_camera
@@ -41,6 +42,7 @@ class Shot(NamedTuple):
     camera: tuple[float, float, float] = CAMERAS["quarter"]  # azimuth and elevation in degrees, distance in metres
     ghosts: Collection[str] = ()
     floor: str = "gym"  # one of engine.render.scene.FLOORS
+    slow: bool = False  # whether time slows about each blow
 
 
 class Moment(NamedTuple):
@@ -54,7 +56,11 @@ class Moment(NamedTuple):
 
 def moments(world, advance: Callable[[], None], ticks: int, shot: Shot) -> Iterator[Moment]:
     """Steps a world through that many ticks and gives what is to be seen at every frame."""
-    for alpha in frames_of(world, advance, ticks, shot.fps):
+    alphas = frames_of(world, advance, ticks, shot.fps)
+    if shot.slow:
+        slow_motion = SlowMotion()
+        alphas = slowed_frames_of(world, advance, ticks, shot.fps, lambda passed_s: slow_motion.ease(world, passed_s))
+    for alpha in alphas:
         now = moment(world, alpha, shot.ghosts)
         now.scene.floor = floor_under(now.scene, shot.floor)
         yield now

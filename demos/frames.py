@@ -21,3 +21,17 @@ def frames_of(world, advance: Callable[[], None], ticks: int, fps: float) -> Ite
         while world.tick < tick:
             advance()
         yield 1.0 - (tick - at)
+
+
+def slowed_frames_of(
+    world, advance: Callable[[], None], ticks: int, fps: float, pace: Callable[[float], float]
+) -> Iterator[float]:
+    """`frames_of` with time passing slower at times: `pace` is told how long a frame lasts and answers which share of
+    it counts, at the tick that the world has come to.
+    """
+    at = 0.0
+    while at <= ticks:
+        while world.tick < math.ceil(at - 1e-9):
+            advance()
+        yield 1.0 - (world.tick - at)
+        at += TICK_RATE_HZ / fps * pace(1.0 / fps)

@@ -85,8 +85,8 @@ def replayed(journal: Journal, where: str) -> tuple[Simulation, Recorder]:
     return simulation, replay(simulation.world, simulation.step, apply_command, journal)
 
 
-def with_progress(steps: Iterable[T], what: str, total: int) -> Iterable[T]:
-    """The same steps, with a bar on a terminal and silence in a pipe."""
+def with_progress(steps: Iterable[T], what: str, total: int | None) -> Iterable[T]:
+    """The same steps, with a bar on a terminal (a count where no total is known) and silence in a pipe."""
     if not sys.stderr.isatty():
         return steps
     from tqdm import tqdm

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import math
 
 from demos.commands.arguments import add_filming, add_scenario, shot_of
 from demos.output import say
@@ -23,8 +24,9 @@ def register(subparsers) -> None:
     parser.add_argument("-o", "--output", required=True, metavar="OUT", help="x.mp4, x.gif, x.png (strip) or a folder")
     parser.add_argument("--frames", type=int, metavar="N", help=f"pictures in a filmstrip ({STRIP_FRAMES})")
     parser.add_argument("--columns", type=int, metavar="N", help="pictures in a row of a filmstrip (all of them)")
-    parser.add_argument("--from", type=float, dest="from_s", metavar="S", help="filmstrip: from this second on")
-    parser.add_argument("--to", type=float, dest="to_s", metavar="S", help="filmstrip: up to this second")
+    parser.add_argument("--from", type=float, dest="from_s", metavar="S", help="only from this second on")
+    parser.add_argument("--to", type=float, dest="to_s", metavar="S", help="only up to this second")
+    parser.add_argument("--slow", action="store_true", help="slow motion just before and after each blow")
     parser.add_argument(
         "--depth", metavar="FOLDER", help="beside a film: distances, 16 bit PNGs, millimetres, 0 nothing"
     )
@@ -44,15 +46,19 @@ def run(args: argparse.Namespace) -> None:
     args.size = args.size or (STRIP_SIZE if args.output.lower().endswith(".png") else "1280x720")
     shot = shot_of(args)
     kind = capture_kind(args.output)
+    if kind == "png" and args.slow:
+        raise BadInput("usage", "--slow goes with a film or a folder of pictures, not with a strip")
     truth = _ground_truth(args, kind, shot)
     simulation = start(*open_scenario(args.scenario, args.set))
-    shot = placed_for(shot, simulation.scenario)
+    shot = placed_for(shot, simulation.scenario)._replace(slow=args.slow)
+    span = (args.from_s, args.to_s)
     with studio() as renderer:
         if kind == "png":
-            write_strip(renderer, args.output, simulation, shot, args.frames, args.columns, args.from_s, args.to_s)
+            write_strip(renderer, args.output, simulation, shot, args.frames, args.columns, *span)
         else:
             witness = truth.witness(renderer) if truth else None
-            write_film(renderer, args.output, simulation.world, simulation.step, simulation.ticks, shot, witness)
+            run = (simulation.world, simulation.step, simulation.ticks)
+            write_film(renderer, args.output, *run, shot, witness, *span)
     say(f"wrote {args.output}")
     for path in truth.write() if truth else ():
         say(f"wrote {path}")
@@ -69,15 +75,18 @@ def _ground_truth(args: argparse.Namespace, kind: str, shot):
     return GroundTruth(shot, args.depth, args.mask, args.tracks)
 
 
-def write_film(renderer, output, world, advance, ticks: int, shot, witness=None) -> None:
-    """The whole run as moving pictures."""
+def write_film(renderer, output, world, advance, ticks: int, shot, witness=None, from_s=None, to_s=None) -> None:
+    """The run, or from one second of it to another, as moving pictures."""
     from demos.filming import film_pictures, moments
     from demos.frames import frame_count
     from demos.running import with_progress
     from engine.render.capture import write_film
 
-    drawn = film_pictures(renderer, moments(world, advance, ticks, shot), shot, witness)
-    write_film(output, with_progress(drawn, "drawing", frame_count(ticks, shot.fps)), shot.fps)
+    first, last = from_s or 0.0, math.inf if to_s is None else to_s
+    seen = (now for now in moments(world, advance, ticks, shot) if first <= now.time_s <= last)
+    is_whole = not shot.slow and from_s is None and to_s is None
+    total = frame_count(ticks, shot.fps) if is_whole else None
+    write_film(output, with_progress(film_pictures(renderer, seen, shot, witness), "drawing", total), shot.fps)
 
 
 def write_strip(renderer, output, simulation, shot, frames=None, columns=None, from_s=None, to_s=None) -> None:

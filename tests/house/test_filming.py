@@ -7,8 +7,10 @@ from PIL import Image
 from behaviours.scenario import parse_scenario
 from demos.cli import main
 from demos.filming import CAMERAS, Moment, Shot, choose, parse_camera, parse_ghosts, parse_size, placed_for
+from demos.frames import frames_of, slowed_frames_of
 from demos.stage import floor_under
 from engine.body.anthropometry import standard_body
+from engine.core.clock import TICK_RATE_HZ
 from engine.core.errors import BadInput
 from engine.render.scene import Figure, Scene
 
@@ -140,3 +142,60 @@ def test_who_walks_out_of_the_hall_walks_on_plain_ground():
     assert floor_under(Scene(figures=[Figure(body, inside, turned)]), "gym").style == "gym"
     assert floor_under(Scene(figures=[Figure(body, outside, turned)]), "gym").style == "plain"
     assert floor_under(Scene(), "plain").style == "plain"
+
+
+class Clockwork:
+    """What steps and counts its ticks."""
+
+    tick = 0
+
+    def advance(self):
+        self.tick += 1
+
+
+def times_s(frames, clockwork):
+    """When each frame is, as its place between two ticks says."""
+    return [(clockwork.tick - 1.0 + alpha) / TICK_RATE_HZ for alpha in frames]
+
+
+def test_slowed_frames_at_full_pace_are_the_steady_ones():
+    steady, slowed = Clockwork(), Clockwork()
+    expected = times_s(frames_of(steady, steady.advance, 60, 25.0), steady)
+    found = times_s(slowed_frames_of(slowed, slowed.advance, 60, 25.0, lambda passed_s: 1.0), slowed)
+    assert found == pytest.approx(expected, abs=1e-12)
+
+
+def test_slowed_frames_lie_as_close_as_the_pace_says():
+    clockwork = Clockwork()
+    frames = slowed_frames_of(clockwork, clockwork.advance, 60, 30.0, lambda _: 0.1 if clockwork.tick >= 30 else 1.0)
+    steps_s = np.diff(times_s(frames, clockwork))
+    assert steps_s[:7] == pytest.approx(1 / 30)
+    assert steps_s[8:] == pytest.approx(0.1 / 30)
+    assert clockwork.tick == 60
+
+
+def test_a_film_slows_about_the_blow_and_nowhere_else(brace, tmp_path):
+    words = ("--size", "32x24", "--fps", "12", "--floor", "plain", "--from", "0.3", "--to", "2.0")
+    done = brace("capture", "sway", *words, "--slow", "-o", "film", "--tracks", "tracks.npz")
+    assert (done.returncode, done.stderr) == (0, "")
+    time_s = np.load(tmp_path / "tracks.npz")["time_s"]
+    assert len(list((tmp_path / "film").glob("*.png"))) == len(time_s)
+    assert 0.3 <= time_s[0] <= 0.3 + 1 / 12
+    assert 2.0 - 1 / 12 <= time_s[-1] <= 2.0
+    steps_s = np.diff(time_s)
+    slow = time_s[1:][steps_s < 0.5 / 12]
+    assert len(slow) > 8
+    assert slow[-1] - slow[0] < 0.4  # a blow, with what leads to it
+    assert np.median(np.delete(steps_s, np.flatnonzero(steps_s < 0.5 / 12))) == pytest.approx(1 / 12)
+
+
+def test_a_span_with_nothing_in_it_is_one_line(capsys, tmp_path):
+    words = ["capture", "sway", *SMALL, "--from", "3", "-o", str(tmp_path / "a.gif")]
+    assert main(words) == 2
+    assert one_line(capsys).startswith("error[no-frames]")
+    assert not list(tmp_path.iterdir())
+
+
+def test_a_strip_is_not_slowed(capsys):
+    assert main(["capture", "sway", "--slow", "-o", "strip.png"]) == 2
+    assert one_line(capsys).startswith("error[usage]: --slow")
