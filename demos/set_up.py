@@ -86,7 +86,15 @@ def _be_struck() -> None:
     _run("sway", ball)
 
 
-PARTS = {"protection": _protect, "blow": _be_struck}
+def _stand() -> None:
+    """A stance that reaches for what is near. What a hard reach needs besides is left to the first one."""
+    from behaviours.stance.solve import solve_stance
+    from engine.body.anthropometry import standard_body
+
+    solve_stance(standard_body(), "reach-eager", 0.5, reach_right_m=(0.45, -0.25, 1.2))
+
+
+PARTS = {"protection": _protect, "blow": _be_struck, "stance": _stand}
 
 
 def _run(scenario: str, *overrides: str) -> None:

@@ -10,7 +10,7 @@ import numpy as np
 from behaviours.stance import sequence
 from behaviours.stance.shape import shape, wind_up
 from behaviours.stance.solve import StanceResult, solve_shape
-from engine.body.skeleton import Body
+from engine.body.skeleton import ANKLES, Body
 from engine.body.support import polygon_of
 from engine.render.camera import Camera, orbit_camera
 from engine.render.scene import Balance, Ball, Figure, Scene
@@ -55,23 +55,29 @@ def front_and_side(body: Body, result: StanceResult, marks: Sequence = ()) -> np
     return np.hstack(views)
 
 
-def there_and_back(body: Body, result: StanceResult, marks: Sequence = ()) -> Iterator[np.ndarray]:
-    """Pictures of neutral, a little wind-up, the stance, and neutral again."""
+def there_and_back(body: Body, results: Sequence[StanceResult]) -> tuple[StanceResult, list[sequence.Move]]:
+    """From neutral, with a little wind-up before each, into one stance after the other, and back to neutral."""
+    neutral, moves = solve_shape(body, shape(), results[0].feet), []
+    for result in results:
+        back = solve_shape(body, wind_up(result.shape, 0.2), result.feet)
+        moves += [sequence.Move(back, WIND_UP_S, 0.0), sequence.Move(result, MOVE_S, HOLD_S)]
+    return neutral, [*moves, sequence.Move(neutral, MOVE_S, 0.3)]
+
+
+def film_of(body: Body, frames: Sequence[sequence.Frame], marks: Sequence = ()) -> Iterator[np.ndarray]:
+    """Pictures of a sequence, FPS a second."""
     from demos.filming import studio
 
-    neutral = solve_shape(body, shape(), result.feet)
-    back = solve_shape(body, wind_up(result.shape, 0.2), result.feet)
-    moves = [
-        sequence.Move(back, WIND_UP_S, 0.0),
-        sequence.Move(result, MOVE_S, HOLD_S),
-        sequence.Move(neutral, MOVE_S, 0.3),
-    ]
-    every = round(sequence.TICK_RATE_HZ / FPS)
     with studio() as renderer:
-        for tick, frame in enumerate(sequence.frames(body, neutral, moves)):
-            if tick % every == 0:
-                scene = scene_of(
-                    body, frame.joints_m, frame.orientations, frame.com_m, frame.com_wanted_m, frame.planted, marks
-                )
-                renderer.draw(scene, camera_at(-40.0, 8.0), SIZE_PX)
-                yield renderer.read_rgb()
+        for frame in frames[:: round(sequence.TICK_RATE_HZ / FPS)]:
+            scene = scene_of(
+                body, frame.joints_m, frame.orientations, frame.com_m, frame.com_wanted_m, frame.planted, marks
+            )
+            renderer.draw(scene, camera_at(-40.0, 8.0), SIZE_PX)
+            yield renderer.read_rgb()
+
+
+def foot_motion_m(frames: Sequence[sequence.Frame]) -> float:
+    """How far any ankle strays from where it was in the first frame."""
+    ankles_m = np.array([frame.joints_m[list(ANKLES)] for frame in frames])
+    return float(np.sqrt(((ankles_m - ankles_m[0]) ** 2).sum(axis=-1)).max())

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import math
 from typing import Any
 
 from demos.output import print_json, say
@@ -33,6 +34,12 @@ def register(subparsers) -> None:
     parser.add_argument("--width", type=float, metavar="M", help="between the ankles, metres")
     parser.add_argument("--height", type=float, default=1.75, metavar="M", help="of the person, metres (1.75)")
     parser.add_argument("--sex", choices=("male", "female"), default="male", help="whose masses and proportions (male)")
+    parser.add_argument(
+        "--then", action="append", default=[], metavar="SET:X", help="a further stance of the film; may be repeated"
+    )
+    parser.add_argument(
+        "--crouch", action="store_true", help="instead of a SET: crouch, twist of the pelvis, shift of the weight"
+    )
     parser.add_argument("--json", action="store_true", help="the report for programs")
     parser.add_argument(
         "-o", "--output", metavar="FILE", help=".png: front and side; .mp4, .gif: from neutral and back"
@@ -52,19 +59,25 @@ def run(args: argparse.Namespace) -> None:
             )
         )
         return
+    if args.crouch:
+        _run_crouch(args)
+        return
     if args.set is None:
         raise BadInput("usage", "expected a SET (`brace stance --list` shows them)")
     own = _own_shape(args.set)
     if own is None:
         meaning_of(args.set)
     kind = _kind(args.output)
+    further = [_named(text) for text in args.then]
+    if further and kind != "film":
+        raise BadInput("usage", "--then needs a film: -o FILE.mp4 or FILE.gif")
     body, feet, points = _wanted(args)
     points = {name: point or (own.points.get(name) if own else None) for name, point in points.items()}
     result, milliseconds = _solve(body, args, feet, points, own)
     if kind == "still":
         _write_still(args.output, body, result, points)
     elif kind == "film":
-        _write_film(args.output, body, result, points)
+        _write_film(args.output, body, [result, *_more(body, further, result, points)], points)
     told = (body, result, args.set, args.intensity, milliseconds)
     if args.json:
         print_json(report.as_json(*told))
@@ -93,8 +106,6 @@ def _wanted(args) -> tuple[Any, Any, dict[str, Any]]:
 
 def _point(text: str | None, name: str) -> tuple[float, float, float] | None:
     """`1.2,0.4,1.3`. BadInput for anything else."""
-    from math import isfinite
-
     from engine.core.errors import BadInput
 
     if text is None:
@@ -103,7 +114,7 @@ def _point(text: str | None, name: str) -> tuple[float, float, float] | None:
         x, y, z = (float(word) for word in text.split(","))
     except ValueError:
         x = y = z = float("nan")
-    if not all(map(isfinite, (x, y, z))):
+    if not all(map(math.isfinite, (x, y, z))):
         raise BadInput("usage", f"{name} {text!r}: expected three numbers, such as 1.2,0.4,1.3")
     return x, y, z
 
@@ -157,12 +168,71 @@ def _write_still(output, body, result, points) -> None:
     say(f"wrote {output}")
 
 
-def _write_film(output, body, result, points) -> None:
-    from demos.stance_pictures import FPS, there_and_back
+def _write_film(output, body, results, points) -> None:
+    from behaviours.stance import sequence
+    from demos.stance_pictures import there_and_back
+
+    _film(output, body, list(sequence.frames(body, *there_and_back(body, results))), points)
+
+
+def _film(output, body, frames, points) -> None:
+    from demos.stance_pictures import FPS, film_of, foot_motion_m
     from engine.render.capture import write_film
 
-    write_film(output, there_and_back(body, result, _marks(points)), FPS)
-    say(f"wrote {output}")
+    write_film(output, film_of(body, frames, _marks(points)), FPS)
+    say(f"wrote {output}; the feet moved by {1e3 * foot_motion_m(frames):.2g} mm")
+
+
+def _named(text: str):
+    """`interest:0.8`; a name alone means all of it. BadInput for anything else."""
+    from behaviours.stance.shape_sets import meaning_of
+    from engine.core.errors import BadInput
+
+    name, colon, number = text.partition(":")
+    try:
+        intensity = float(number) if colon else 1.0
+    except ValueError:
+        intensity = math.nan
+    if not math.isfinite(intensity):
+        raise BadInput("usage", f"--then {text!r}: expected SET:X, such as interest:0.8")
+    return meaning_of(name, intensity)
+
+
+def _more(body, further, first, points) -> list[Any]:
+    """The stances that follow, on the feet of the first one."""
+    from behaviours.stance.solve import solve_stance
+
+    return [solve_stance(body, named.set_name, named.intensity, feet=first.feet, **points) for named in further]
+
+
+def _run_crouch(args) -> None:
+    """The paper's own proof of balance and feet (7), played and measured; with -o, filmed."""
+    from behaviours.stance import sequence
+    from behaviours.stance.footprints import neutral_width_m
+    from demos.benchmarks.stance_bars import crouch_twist_shift
+    from demos.stance_pictures import foot_motion_m
+    from engine.core.errors import BadInput
+
+    if args.set is not None or args.then:
+        raise BadInput("usage", "--crouch comes instead of a SET")
+    if _kind(args.output) == "still":
+        raise BadInput("usage", f"-o {args.output}: --crouch is a film, .mp4 or .gif")
+    body, _, points = _wanted(args)
+    width_m = neutral_width_m(body) if args.width is None else args.width
+    frames = list(sequence.frames(body, *crouch_twist_shift(body, width_m)))
+    off_m = max(math.hypot(*(frame.com_m[:2] - frame.com_wanted_m)) for frame in frames)
+    found = {
+        "width_m": width_m, "seconds": len(frames) / sequence.TICK_RATE_HZ, "foot_motion_m": foot_motion_m(frames),
+        "balance_error_m": off_m,
+    }  # fmt: skip
+    if args.output:
+        _film(args.output, body, frames, points)
+    if args.json:
+        print_json(found)
+    else:
+        print(f"crouch, twist, shift on feet {100 * width_m:.0f} cm apart, {found['seconds']:.1f} s")
+        print(f"  feet        moved by {1e3 * found['foot_motion_m']:.2g} mm at most")
+        print(f"  balance     off by {1e3 * off_m:.2g} mm at most, on the way")
 
 
 def _marks(points) -> list[Any]:

@@ -97,3 +97,36 @@ def test_a_film_of_getting_there(tmp_path, capsys):
     assert main(["stance", "slovenly", "-o", str(path)]) == 0
     with Image.open(path) as film:
         assert film.n_frames > 60
+
+
+def test_one_stance_after_the_other_is_filmed_on_feet_that_stay(tmp_path, capsys):
+    path = tmp_path / "moods.gif"
+    assert main(["stance", "interest", "--object", "0.8,0.3,1.2", "--then", "recoil-mild", "-o", str(path)]) == 0
+    with Image.open(path) as film:
+        assert film.n_frames > 120
+    moved_mm = float(capsys.readouterr().err.split("moved by ")[1].split(" mm")[0])
+    assert moved_mm < 0.1
+
+
+@pytest.mark.parametrize("width", [0.12, 0.42])
+def test_the_crouch_is_played_on_any_width_and_no_foot_moves(capsys, width):
+    assert main(["stance", "--crouch", "--width", str(width), "--json"]) == 0
+    found = json.loads(capsys.readouterr().out)
+    assert found["width_m"] == width
+    assert found["foot_motion_m"] < 1e-4
+    assert found["seconds"] > 5.0
+
+
+@pytest.mark.parametrize(
+    ("words", "found"),
+    [
+        (["posture", "--then", "hunched"], "needs a film"), (["posture", "--then", "hunch", "-o", "x.gif"], "hunched"),
+        (["posture", "--then", "hunched:much", "-o", "x.gif"], "SET:X"), (["posture", "--crouch"], "instead of a SET"),
+        (["--crouch", "-o", "x.png"], "film"), (["none.toml"], "cannot be read"),
+    ],
+)  # fmt: skip
+def test_a_sequence_that_cannot_be_is_one_line(capsys, words, found):
+    assert main(["stance", *words]) == 2
+    said = capsys.readouterr().err
+    assert said.count("\n") == 1
+    assert found in said
