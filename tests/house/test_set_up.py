@@ -43,6 +43,21 @@ def test_all_parts_run_and_their_kernels_are_counted(monkeypatch, tmp_path):
     assert sorted(calls) == [f"-P -m demos.set_up kernels-{part}" for part in sorted(set_up.PARTS)]
 
 
+def test_figures_are_sculpted_ahead_as_pictures_want_them(monkeypatch, tmp_path):
+    from engine.clips.library import find_clip
+    from engine.render import mesh_cache
+    from engine.render.passes.figures import DETAIL
+
+    monkeypatch.setenv("BRACE_CACHE", str(tmp_path))  # no clip but the embedded one is here
+    made = []
+    monkeypatch.setattr(mesh_cache, "cached_mesh", lambda body, coarser: made.append((body, coarser)))
+    set_up._sculpt()
+    assert [coarser for _, coarser in made] == list(set_up.MOSTLY_SEEN)
+    assert {coarser for _, coarser in DETAIL} >= set(set_up.MOSTLY_SEEN)
+    expected = mesh_cache.body_key(find_clip("sway").body)
+    assert all(mesh_cache.body_key(body) == expected for body, _ in made)
+
+
 def test_the_blow_comes_without_a_protection_before_it(monkeypatch):
     """Else both parts would compile the same kernels."""
     from behaviours.components import Phase, Reaction
