@@ -8,8 +8,6 @@ shoulders (specification A7).
 
 from __future__ import annotations
 
-from numba import njit
-
 from behaviours.arm_ways import follow_way, within_limits
 from behaviours.held_feet import hold_feet, leg_lengths
 from behaviours.neck_line import hold_neck
@@ -28,7 +26,7 @@ AHEAD_GAIN = 1.0  # how far the COM hurries on along its line for a pelvis that 
 LEGS_SHARE = 0.5  # of the pelvis's way that the legs go, feet held
 
 
-@njit(cache=True)
+@inner_kernel
 def balance(body, start, end, weight, goals, ways, knees, root_m, rotations, positions, orientations):
     """Moves the pelvis until the COM is on its line, everything else held where it belongs. In place.
 
@@ -116,7 +114,7 @@ def slerp_foot(body, start, end, weight, side, rotations, positions, orientation
     turn_end_to(body.offset_m, rotations, positions, orientations, KNEES[side], ankle, turned, TOES[side])
 
 
-@njit(cache=True)
+@inner_kernel
 def ease_ankle(body, start, end, weight, side, bears, rotations, positions, orientations):
     """Turns a foot in the air back to where its ankle goes; the less, the more it bears. In place."""
     ankle = ANKLES[side]

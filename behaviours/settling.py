@@ -33,6 +33,7 @@ from engine.body.limits import clamp_keeping, components, from_components
 from engine.body.skeleton import HIPS, JOINT_COUNT, KNEES, PELVIS
 from engine.core.schedule import Stage, system
 from engine.maths import quaternion, vector
+from engine.maths.inner_kernel import inner_kernel
 
 BELONGINGS = (Ragdoll, Blow, Residual, Blend, Feet, Sustained, Playback)  # what a pose is made from
 KNEE_PLAY_RAD = 0.05  # what a knee gives beyond its limits, so that one that is straight anyway does not catch
@@ -82,7 +83,7 @@ def keep_joints(body, source, offsets, elapsed_s, half_life_s, rotations):
             quaternion.put(rotations, j, from_components(x, y, z))
 
 
-@njit(cache=True)
+@inner_kernel
 def drawn_in(low, high, first, last, value):
     """A component, gently, within its limits or at least no farther out than two others; radians."""
     beyond = max(value - max(high, first, last), 0.0) + min(value - min(low, first, last), 0.0)

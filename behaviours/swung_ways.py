@@ -195,7 +195,7 @@ def bend_swung(body, capsules, start, end, side, weight, joints_m, turned, ends_
     descend(body, capsules, arm, MORE_STEPS, bends, ends_m, other_m, allowed_m, residuals)
 
 
-@njit(cache=True)
+@inner_kernel
 def begin(bends, n):
     """Writes one of STARTS into both knots."""
     for part in range(KNOT_PARTS):
