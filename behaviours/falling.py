@@ -17,7 +17,7 @@ from behaviours.seams import shown
 from behaviours.timing import TICK_S
 from engine.body import footing
 from engine.body.kinematics import com_of, joints_of
-from engine.body.limits import clamp_rotation, from_components
+from engine.body.limits import clamp_keeping, clamp_rotation, from_components
 from engine.body.skeleton import ANKLES, HIPS, JOINT_COUNT, JOINTS, KNEES, MIRRORED, PELVIS, Pose
 from engine.maths import quaternion
 
@@ -74,7 +74,9 @@ def begin_falling(world, row: int) -> None:
     asked = falling_rotations(body, side_rad(now, way_mps))
     s.root_m[row] = now.root_m
     for j in range(1, JOINT_COUNT):
-        s.rotations[row, j] = quaternion.slerp(now.rotations[j], asked[j], share)
+        # a limb's turn on the way between two of its rotations may lie outside both its limits
+        between = quaternion.slerp(now.rotations[j], asked[j], share)
+        s.rotations[row, j] = clamp_keeping(body.limit_low_rad[j], body.limit_high_rad[j], now.rotations[j], between)
 
 
 def side_rad(pose: Pose, way) -> float:

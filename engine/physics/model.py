@@ -35,7 +35,8 @@ FLOOR_FRICTION = 0.8  # a shoe on a sports floor: 0.7 to 1.1 (EN 14904 asks for 
 
 # flesh in flesh, where a pose begins so or one lies on one's own arm: it parts slowly, critically damped. What comes
 # fast is stopped by `engine.physics.stops`.
-FLESH_SOLREF = "0.05 1"
+FLESH_SOLREF = "0.02 1"
+FLESH_FRICTION = 0.5
 
 # Greatest joint torques, N m for a man of 73 kg, rounded: isometric maxima of young men in the stronger direction (hip,
 # knee, ankle after Anderson, Madigan and Nussbaum 2007; trunk after Kumar, Dufresne and Van Schoor 1995;
@@ -166,7 +167,7 @@ def xml_of(body: Body) -> str:
             '<mujoco model="brace">',
             '  <compiler angle="radian" inertiafromgeom="false" boundmass="0" boundinertia="0"/>',
             f'  <option timestep="{1.0 / SUB_STEPS_HZ!r}" gravity="{_text(GRAVITY_MPS2)}" cone="elliptic"'
-            ' iterations="60" tolerance="1e-10">',
+            ' impratio="10" iterations="60" tolerance="1e-10">',
             '    <flag autoreset="disable" eulerdamp="disable"/>',
             "  </option>",
             "  <default>",
@@ -187,7 +188,11 @@ def xml_of(body: Body) -> str:
 
 
 def _pair(one, other):
-    return f'    <pair geom1="{one}" geom2="{other}" condim="1" solref="{FLESH_SOLREF}" solimp="0.9 0.95 0.01"/>'
+    friction = f"{FLESH_FRICTION} {FLESH_FRICTION} 0.005 0.0001 0.0001"
+    return (
+        f'    <pair geom1="{one}" geom2="{other}" condim="3" friction="{friction}" solref="{FLESH_SOLREF}"'
+        ' solimp="0.9 0.95 0.01"/>'
+    )
 
 
 def _text(values):

@@ -26,7 +26,7 @@ from engine.maths.inner_kernel import inner_kernel
 
 SERVO_HZ = 3.5  # at strength 1: settles in about 0.1 s, as braced muscle with its reflexes does
 LIGAMENT_HZ = 8.0
-LIGAMENT_PER_STRENGTH = 12.0  # per radian beyond a limit: a joint gives 5 degrees under its own muscles' full torque
+LIGAMENT_PER_STRENGTH = 60.0  # per radian beyond a limit: a joint gives 1 degree under its own muscles' full torque
 PASSIVE_PER_S = 1.5  # tissue damping that is left without any strength, per unit of servo inertia
 
 

@@ -21,12 +21,14 @@ from tests.behaviours.blows import SPIKE, TAP, heavy, thrown
 from tests.behaviours.runs import events, mirrored_back
 from tests.physics.standing import BODY, standing
 
-DOWN = {"torso": heavy(25.0), "pelvis": heavy(40.0, "pelvis")}
+FELLS = heavy(40.0, speed_mps=9.0)
 EVERY_WAY = [0.0, 90.0, 180.0]
 
 
 def responds_s(blow) -> float:
-    return len(blow.ticks_of(Phase.RESPOND)) * TICK_S
+    """How long the physics has the body at the first contact."""
+    first = next(row for row in blow.simulation.report()["phases"] if row["name"] == "respond")
+    return first["to_s"] - first["from_s"]
 
 
 def falls(blow) -> bool:
@@ -77,26 +79,27 @@ def test_a_runner_is_not_down_for_running():
     assert not falls(blow)
 
 
-@pytest.mark.parametrize(
-    ("target", "azimuth_deg"), [("torso", 0.0), ("torso", 180.0), ("torso", 120.0), ("pelvis", 90.0)]
-)
-def test_the_fallen_come_to_rest_on_the_floor(target, azimuth_deg):
-    blow = thrown(DOWN[target], azimuth_deg, duration_s=5.0)
+@pytest.mark.parametrize("azimuth_deg", [0.0, 120.0, 180.0])
+def test_the_fallen_come_to_rest_on_the_floor(azimuth_deg):
+    blow = thrown(FELLS, azimuth_deg, duration_s=5.5)
     down = blow.ticks_of(Phase.DOWN)
-    assert len(down) > 0
+    assert len(down) > 240
     joints_m = joints_of(blow.track.body, blow.track.pose)[0]
     assert joints_m[-1, [HEAD, PELVIS], 2].max() < 0.4
-    speeds = np.linalg.norm(np.diff(joints_m[-60:], axis=0), axis=2) / TICK_S
-    assert np.median(speeds.max(axis=1)) < 0.05
-    assert speeds.max() < 0.2
+    moved_m = np.linalg.norm(joints_m[-60:] - joints_m[-60], axis=2).max(axis=0)
+    assert moved_m[[HEAD, PELVIS]].max() < 0.01
+    assert moved_m.max() < 0.05  # a hand may still slide off
+    speeds_mps = np.linalg.norm(np.diff(joints_m[-60:], axis=0), axis=2) / TICK_S
+    assert np.median(speeds_mps.max(axis=1)) < 0.1
     assert min(blow.lowest_m(k) for k in down) > -0.08  # as it strikes the ground
     assert min(blow.lowest_m(k) for k in down[-60:]) > -0.01
-    last = Pose(*(np.array(part)[None] for part in (blow.track.root_m[-1], blow.track.rotations[-1])))
-    assert overlaps_m(blow.track.body, last).max() < 0.03
+    lies = Pose(np.array(blow.track.root_m)[down], np.array(blow.track.rotations)[down])
+    assert overlaps_m(blow.track.body, lies).max() < 0.02
+    assert math.degrees(limits.excess_rad(blow.track.body, lies.rotations).max()) < 3.0
 
 
 def test_who_falls_forwards_lands_on_the_hands_and_bends_the_knees():
-    blow = thrown(DOWN["torso"], 180.0, duration_s=5.0)
+    blow = thrown(FELLS, 180.0, duration_s=5.5)
     down = blow.ticks_of(Phase.DOWN)
     joints_m = joints_of(blow.track.body, blow.track.pose)[0]
     landed = next(k for k in down if joints_m[k, HEAD, 2] < 0.4)
