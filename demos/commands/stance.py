@@ -76,13 +76,16 @@ def run(args: argparse.Namespace) -> None:
     result, milliseconds = _solve(body, args, feet, points, own)
     if kind == "still":
         _write_still(args.output, body, result, points)
-    elif kind == "film":
-        _write_film(args.output, body, [result, *_more(body, further, result, points)], points)
+    moved_m = None
+    if kind == "film":
+        moved_m = _write_film(args.output, body, [result, *_more(body, further, result, points)], points)
     told = (body, result, args.set, args.intensity, milliseconds)
     if args.json:
-        print_json(report.as_json(*told))
+        print_json(report.as_json(*told) | ({} if moved_m is None else {"film_foot_motion_m": moved_m}))
     else:
         print("\n".join(report.lines(*told)))
+        if moved_m is not None:
+            print(f"  film        the feet move by {1e3 * moved_m:.2g} mm at most")
 
 
 def _wanted(args) -> tuple[Any, Any, dict[str, Any]]:
@@ -168,19 +171,22 @@ def _write_still(output, body, result, points) -> None:
     say(f"wrote {output}")
 
 
-def _write_film(output, body, results, points) -> None:
+def _write_film(output, body, results, points) -> float:
+    """Returns how far the feet move in it, metres."""
     from behaviours.stance import sequence
-    from demos.stance_pictures import there_and_back
+    from demos.stance_pictures import foot_motion_m, there_and_back
 
-    _film(output, body, list(sequence.frames(body, *there_and_back(body, results))), points)
+    frames = list(sequence.frames(body, *there_and_back(body, results)))
+    _film(output, body, frames, points)
+    return foot_motion_m(frames)
 
 
 def _film(output, body, frames, points) -> None:
-    from demos.stance_pictures import FPS, film_of, foot_motion_m
+    from demos.stance_pictures import FPS, film_of
     from engine.render.capture import write_film
 
     write_film(output, film_of(body, frames, _marks(points)), FPS)
-    say(f"wrote {output}; the feet moved by {1e3 * foot_motion_m(frames):.2g} mm")
+    say(f"wrote {output}")
 
 
 def _named(text: str):

@@ -104,7 +104,7 @@ def test_one_stance_after_the_other_is_filmed_on_feet_that_stay(tmp_path, capsys
     assert main(["stance", "interest", "--object", "0.8,0.3,1.2", "--then", "recoil-mild", "-o", str(path)]) == 0
     with Image.open(path) as film:
         assert film.n_frames > 120
-    moved_mm = float(capsys.readouterr().err.split("moved by ")[1].split(" mm")[0])
+    moved_mm = float(capsys.readouterr().out.split("feet move by ")[1].split(" mm")[0])
     assert moved_mm < 0.1
 
 
