@@ -13,8 +13,9 @@ import numpy as np
 from behaviours.perceived import PerceivedThreat
 from behaviours.task import Bones, Build, Choices, FeetPlan, Start, Task
 from behaviours.total_error import Reference
-from engine.body.skeleton import MIRRORED
+from engine.body.skeleton import MIRRORED, Pose
 from engine.clips.mirror import FLIP_POINT, FLIP_ROTATION, FLIPPED_LIMITS, mirror_pose
+from engine.maths import vector
 
 __all__ = [
     "mirror_choices",
@@ -24,14 +25,43 @@ __all__ = [
     "mirror_reference",
     "mirror_task",
     "mirror_threat",
+    "rounded_pose",
+    "rounded_threat",
 ]
 
+GRID = 2.0**26  # steps of a metre, or of a unit: 15 nanometres
 CONTROLS_SWAPPED = np.array([0, 1, 2, 4, 3, 6, 5])
 SWAPPED = np.array([1, 0])
 
 
 def _flip(v) -> tuple[float, float, float]:
     return (float(v[0]), -float(v[1]), float(v[2]))
+
+
+def rounded_pose(pose: Pose) -> Pose:
+    """The pose on a grid far too fine to be seen: what differs in its last bits between left and right becomes equal.
+
+    A search and a fit stop where rounding lets them; from the same bits they stop at the same place.
+    """
+    turned = np.round(np.asarray(pose.rotations) * GRID) / GRID
+    turned /= np.sqrt(np.sum(turned * turned, axis=-1, keepdims=True))
+    return Pose(np.round(np.asarray(pose.root_m) * GRID) / GRID, np.ascontiguousarray(turned))
+
+
+def rounded_threat(threat: PerceivedThreat) -> PerceivedThreat:
+    """The same for a threat."""
+    return threat._replace(
+        direction=vector.unit(_on_grid(threat.direction), threat.direction),
+        tangent=vector.unit(_on_grid(threat.tangent), threat.tangent),
+        line_point_m=_on_grid(threat.line_point_m),
+        head_weight=round(threat.head_weight * GRID) / GRID,
+        pelvis_weight=round(threat.pelvis_weight * GRID) / GRID,
+    )
+
+
+def _on_grid(v) -> tuple[float, float, float]:
+    x, y, z = (np.round(np.asarray(v, float) * GRID) / GRID).tolist()
+    return (x, y, z)
 
 
 def mirror_controls(controls: np.ndarray) -> np.ndarray:

@@ -4,13 +4,13 @@ from.
 
 from __future__ import annotations
 
-import math
 from typing import NamedTuple
 
 import numpy as np
 
 from behaviours.components import Character, Flight, Reaction, Sustained, Threat
-from behaviours.perceived import AIMS, NO_JOINT, PerceivedThreat, aim_of, target_weights
+from behaviours.mirroring import rounded_pose, rounded_threat
+from behaviours.perceived import AIMS, PerceivedThreat, aim_of, target_weights
 from behaviours.playing import body_of, clip_pose, planted_in_clip
 from behaviours.seams import shown
 from behaviours.sustained import Protection, protect
@@ -18,12 +18,7 @@ from behaviours.threats import KINDS
 from behaviours.timing import TICK_S
 from behaviours.wearing import as_felt
 from engine.body.kinematics import joints_of
-from engine.body.skeleton import MIRRORED, PELVIS, Body, Pose
-from engine.clips.mirror import mirror_pose
-from engine.maths import quaternion
-
-# lean, turn, recoil, then left and right of reach and of swivel
-MIRRORED_CONTROLS = np.array([0, 1, 2, 4, 3, 6, 5])
+from engine.body.skeleton import Body, Pose
 
 
 def perceive(
@@ -98,56 +93,13 @@ class Defence(NamedTuple):
 
 
 def defend(world, row: int, threat: PerceivedThreat, clip_s: float, ttc_s: float) -> Defence:
-    """The protective pose of a character as it is now.
-
-    It is always worked out as for a threat from the left: one from the right is mirrored, with all that it is aimed
-    at, and the answer mirrored back. A search stops where rounding lets it; so it stops at the same place for both.
-    """
-    body, now = body_of(world, row), shown(world, row)[0]
+    """The protective pose of a character as it is now."""
     ahead, planted, landing = look_ahead(world, row, clip_s, ttc_s)
-    side, settings = float(world[Character].turn_side[row]), world.assets.settings
-    if comes_from_left(now, threat):
-        return _defence(protect(body, now, ahead, planted, threat, settings, side, landing))
-    body = world.assets.mirrored_bodies[int(world[Character].body[row])]
-    seen = mirrored_threat(threat)
-    found = protect(body, mirror_pose(now), mirror_pose(ahead), planted[::-1].copy(), seen, settings, -side, landing)
-    return mirrored_defence(_defence(found))
-
-
-def comes_from_left(now: Pose, threat: PerceivedThreat) -> bool:
-    """Whether a threat comes from the character's left, or from dead ahead."""
-    heading = quaternion.heading(now.rotations[PELVIS])
-    leftward = math.cos(heading) * threat.direction[1] - math.sin(heading) * threat.direction[0]
-    return bool(leftward <= 0.0)
-
-
-def mirrored_threat(threat: PerceivedThreat) -> PerceivedThreat:
-    """The same threat in a mirror along the X axis."""
-    joint = threat.target_joint
-    return threat._replace(
-        direction=_mirrored(threat.direction),
-        tangent=_mirrored(threat.tangent),
-        line_point_m=_mirrored(threat.line_point_m),
-        target_joint=joint if joint == NO_JOINT else int(MIRRORED[joint]),
-        target_offset_m=_mirrored(threat.target_offset_m),
-    )
-
-
-def mirrored_defence(found: Defence) -> Defence:
-    """A defence seen in that mirror."""
-    return Defence(
-        mirror_pose(found.rules),
-        mirror_pose(found.sustained),
-        found.controls[MIRRORED_CONTROLS],
-        found.com_wanted_m * [1.0, -1.0],
-        found.case,
-        found.held[::-1].copy(),
-        -found.turn_side,
-    )
-
-
-def _mirrored(v) -> tuple[float, float, float]:
-    return (v[0], -v[1], v[2])
+    now, side = shown(world, row)[0], float(world[Character].turn_side[row])
+    return _defence(protect(
+        body_of(world, row), rounded_pose(now), rounded_pose(ahead), planted, rounded_threat(threat),
+        world.assets.settings, side, landing,
+    ))  # fmt: skip
 
 
 def _defence(found: Protection) -> Defence:

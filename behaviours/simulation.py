@@ -49,7 +49,7 @@ from behaviours.wearing import Worn, worn_by, worn_pose, worn_shape
 from engine.body.capsules import Capsules, body_capsules
 from engine.body.skeleton import Body
 from engine.clips.clip import Clip
-from engine.clips.mirror import mirror_body, mirror_clip
+from engine.clips.mirror import mirror_clip
 from engine.clips.playback import sample
 from engine.core.clock import ticks
 from engine.core.errors import BadInput
@@ -81,7 +81,6 @@ class Assets:
     settings: Settings
     clips: tuple[Clip, ...]
     bodies: tuple[Body, ...]
-    mirrored_bodies: tuple[Body, ...]
     models: tuple[RagdollModel, ...]
     capsules: tuple[Capsules, ...]
     stances: tuple[Worn | None, ...]  # None: the clip as it is
@@ -99,9 +98,8 @@ def build_world(scenario: Scenario, find: FindClip) -> World:
     models = tuple(model_for(body) for body in bodies)
     capsules = tuple(body_capsules(body) for body in bodies)
     clips, libraries = gather_libraries(scenario, own, find, settings)
-    mirrored = tuple(mirror_body(body) for body in bodies)
     stances = tuple(_stance_of(spec, body) for spec, body in zip(scenario.character, bodies, strict=True))
-    assets = Assets(settings, clips, bodies, mirrored, models, capsules, stances, scenario.threat, rows, libraries)
+    assets = Assets(settings, clips, bodies, models, capsules, stances, scenario.threat, rows, libraries)
     world = World(COMPONENTS, scenario.seed, assets)
     for row, spec in zip(rows, scenario.character, strict=True):
         _spawn_character(world, row, spec)

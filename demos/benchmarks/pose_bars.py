@@ -97,7 +97,7 @@ def words_of(name: str, case: PoseCase) -> str:
 def pose_bars(cases: int, seed: int, clips: dict[str, Clip] | None = None, progress=iter) -> PoseBars:
     """Poses that many seeded cases at real clips (those of `brace bench --motion` unless given) and measures them."""
     if clips is None:
-        from demos.benchmarks.motion import find_clips
+        from demos.benchmarks.motion_cases import find_clips
 
         clips = find_clips()
     settings, chance = Settings(), np.random.default_rng(seed + 1)
