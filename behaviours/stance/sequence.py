@@ -67,6 +67,7 @@ def frames(body: Body, start: StanceResult, moves: list[Move], rate_hz: int = TI
     positions, error = start.joints_m, (0.0, 0.0)
     for move in moves:
         there = held(body, move.to)
+        there = there._replace(root=standing_root(body, here.feet, there.feet, there.root))
         # the dominant foot may change at any time: its offsets are those of the hip over it, wherever that is now
         offsets = offsets_of(here.feet, there.root, positions[HIPS[there.root]])
         moving, ticks = round(move.move_s * rate_hz), round((move.move_s + move.hold_s) * rate_hz)
@@ -83,6 +84,15 @@ def frames(body: Body, start: StanceResult, moves: list[Move], rate_hz: int = TI
                 _planted(here.feet, there.feet, progress), com, wanted,
             )  # fmt: skip
         here = there
+
+
+def standing_root(body: Body, start: Footprints, end: Footprints, root: int) -> int:
+    """The dominant foot of a move: the one that is asked for, but never one that lifts while the other stays down
+    (section 4).
+    """
+    flat = [footprints.raised(body, feet, -feet.toe_rad) for feet in (start, end)]
+    moves = [_moves(*flat, side) for side in range(2)]
+    return 1 - root if moves[root] and not moves[1 - root] else root
 
 
 def held(body: Body, result: StanceResult) -> Held:

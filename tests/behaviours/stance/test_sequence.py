@@ -108,3 +108,21 @@ def test_pelvis_angles_are_what_the_lower_body_was_asked_for(body):
         result.feet, result.plan.lower.root, result.joints_m[(13, 17)[result.plan.lower.root]]
     )
     assert offsets == pytest.approx(result.balance_rad, abs=1e-6)
+
+
+@pytest.mark.parametrize("side", [0, 1])
+def test_the_foot_that_stays_down_is_dominant_whatever_is_asked(body, side):
+    """One foot steps aside; the stance it steps into names that very foot. The other carries the balance and stays."""
+    name = ("left", "right")[side]
+    start = solve_shape(body, shape(knee_left_rad=0.3, knee_right_rad=0.3))
+    feet = [np.array(part) for part in start.feet]
+    feet[0][side, 1] += 0.12 * (1 - 2 * side)
+    end = solve_shape(body, shape(dominant=name, knee_left_rad=0.3, knee_right_rad=0.3), footprints.Footprints(*feet))
+    assert end.plan.lower.root == side
+    assert sequence.standing_root(body, start.feet, end.feet, side) == 1 - side
+    frames = list(sequence.frames(body, start, [sequence.Move(end, 0.6, 0.3)]))
+    stays, goes = (np.array([f.joints_m[ANKLES[k]] for f in frames]) for k in (1 - side, side))
+    assert np.abs(stays - start.joints_m[ANKLES[1 - side]]).max() < 1e-9
+    assert goes[:, 2].max() > start.joints_m[ANKLES[side], 2] + 0.03
+    last = frames[-1]
+    assert np.hypot(*(last.com_m[:2] - last.com_wanted_m)) < 5e-3
