@@ -154,6 +154,37 @@ def test_stops_make_no_energy_and_no_momentum(seed, weightless):
     assert energies[-1] < 0.7 * energies[0]
 
 
+def test_a_whole_blow_against_a_hand_on_the_face_keeps_momentum_and_makes_no_energy(weightless):
+    """No floor, no gravity, limp: ball and body exchange what they have, over the contact time, stops and all."""
+    pose = guarding()
+    state = ragdoll.state_of(MODEL, Pose(pose.root_m + [0.0, 0.0, 30.0], pose.rotations), np.zeros(NV))
+    frames = kinematics.joints_of(BODY, ragdoll.pose_of(MODEL, state))
+    aim = frames[0][WRISTS[0]] + [0.0, -0.03, 0.08]
+    hit = impact.first_hit(SHAPES, frames, frames, aim + [0.5, 0.0, 0.0], aim - [0.5, 0.0, 0.0], 0.105)
+    assert hit.part == "left_hand"
+    ball = impact.Ball(0.27, 0.105, tuple(hit.point_m + 0.105 * hit.normal), (-27.0, 0.0, 0.0))
+    given = impact.exchange(MODEL, state, ball, hit, impact.VOLLEYBALL_ON_SKIN)
+
+    def total(state, ball):
+        return momentum(MODEL, state)[0] + ball.mass_kg * np.array(ball.velocity_mps)
+
+    def joules(state, ball):
+        spin = 0.5 * ball.hollow * ball.mass_kg * ball.radius_m**2 * np.dot(ball.spin_radps, ball.spin_radps)
+        return kinetic_energy(MODEL, state) + 0.5 * ball.mass_kg * np.dot(ball.velocity_mps, ball.velocity_mps) + spin
+
+    began, energy_J = total(state, ball), joules(state, ball)
+    held = []
+    for k in range(12):
+        push = impact.push_of(given, k * TICK_S)
+        state = ragdoll.step(MODEL, state, pose, 0.0, 1.0, TICK_S, (push,))
+        ball = impact.ball_after(ball, given, ragdoll.share_in(push, push.since_s, push.since_s + TICK_S))
+        np.testing.assert_allclose(total(state, ball), began, atol=1e-10)
+        assert joules(state, ball) < energy_J * (1.0 + 1e-6)
+        held.append(nearest(state, "left_hand", "head")[0])
+    assert min(held) > -0.005
+    assert joules(state, ball) < 0.9 * energy_J
+
+
 def test_the_impulses_are_those_of_non_negative_least_squares():
     """x >= 0 that minimises x A x / 2 - x r is the same as nnls of a root of A: SciPy's active sets, not our sweeps."""
     rng = np.random.default_rng(5)
