@@ -93,7 +93,10 @@ class Play:
         if self.held_s is not None:
             self.held_s += passed_s
         view, weight = self.session.view, 1.0 - 0.5 ** (passed_s / COVERING_HALF_LIFE_S)
-        covered = (PANEL_WIDTH + MARGIN if view.panels else 0.0, TIMELINE_HEIGHT + MARGIN if view.timeline else 0.0)
+        covered = (
+            PANEL_WIDTH + MARGIN if view.panels or self.help else 0.0,
+            TIMELINE_HEIGHT + MARGIN if view.timeline else 0.0,
+        )
         self._covered = tuple(now + weight * (to - now) for now, to in zip(self._covered, covered, strict=True))
         self.session.advance(passed_s)
 
@@ -144,10 +147,11 @@ class Play:
             with ui.area("plots", MARGIN, bottom - 182.0, PLOT_WIDTH, 182.0, mouse=False):
                 draw_plots(ui, session)
         if self.help:
-            draw_help(ui)
+            with ui.area("help", ui.width - PANEL_WIDTH - MARGIN, MARGIN, PANEL_WIDTH, bottom - MARGIN):
+                draw_help(ui)
         elif view.panels:
             self._draw_panel(ui, bottom)
-        _draw_toasts(ui, session)
+        _draw_toasts(ui, session, view.panels or self.help)
 
     def _draw_panel(self, ui: Ui, bottom: float) -> None:
         with ui.area("panels", ui.width - PANEL_WIDTH - MARGIN, MARGIN, PANEL_WIDTH, bottom - MARGIN):
@@ -288,10 +292,10 @@ def _states(play: Play) -> list[str]:
     return words
 
 
-def _draw_toasts(ui: Ui, session: Session) -> None:
-    """Lines at the top, left of the panel, newest last."""
+def _draw_toasts(ui: Ui, session: Session, taken: bool) -> None:
+    """Lines at the top right, newest last; left of what has taken that place."""
     if session.toasts.lines:
-        right = ui.width - MARGIN - (PANEL_WIDTH + MARGIN if session.view.panels else 0.0)
+        right = ui.width - MARGIN - (PANEL_WIDTH + MARGIN if taken else 0.0)
         width = min(420.0, right - MARGIN)
         with ui.area("toasts", right - width, MARGIN, width, mouse=False):
             for line in session.toasts.lines:

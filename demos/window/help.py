@@ -20,26 +20,27 @@ class KeyRow(NamedTuple):
 GROUPS: dict[str, tuple[KeyRow, ...]] = {
     "Time": (
         KeyRow("Space", "pauses, goes on", "pause", ("space",)),
-        KeyRow(". or Right", "one tick ahead, and stands still", "step", (".", "right")),
-        KeyRow(", or Left", "one tick back", "step_back", (",", "left")),
+        KeyRow(",  .  arrows", "single ticks back, ahead", "step", (".", "right")),
+        KeyRow("", "", "step_back", (",", "left")),
         KeyRow("-  =", "slower, faster", "slower", ("-",)),
         KeyRow("", "", "faster", ("=",)),
-        KeyRow("S", "slow motion at the blow, on and off", "slow_motion", ("s",)),
+        KeyRow("S", "slow motion at the blow", "slow_motion", ("s",)),
         KeyRow("Backspace", "back to the start", "restart", ("backspace",)),
         KeyRow("End", "to the live edge", "live", ("end",)),
-        KeyRow("timeline", "click jumps, drag scrubs, wheel zooms"),
+        KeyRow("timeline", "click jumps, drag scrubs"),
     ),
     "Throwing": (
-        KeyRow("F, Ctrl-click", "throws at the cursor; hold for speed"),
-        KeyRow("T", "sends the threat of the Threat panel", "send", ("t",)),
+        KeyRow("F, Ctrl-click", "throws; hold for speed"),
+        KeyRow("T", "sends the panel's threat", "send", ("t",)),
         KeyRow("A", "auto-fire, on and off", "auto_fire", ("a",)),
     ),
     "Looking": (
-        KeyRow("drag", "orbits; right or Shift drag pans, wheel zooms"),
+        KeyRow("drag", "orbits; right or Shift drag pans"),
+        KeyRow("wheel", "zooms"),
         KeyRow("X", "everybody into the picture"),
         KeyRow("double click", "selects a character"),
         KeyRow("V", "the camera follows, or stays", "follow", ("v",)),
-        KeyRow("G", "ghosts of clip, rules and sustained pose", "ghosts", ("g",)),
+        KeyRow("G", "ghosts of the three poses", "ghosts", ("g",)),
         KeyRow("L", "labels, on and off", "labels", ("l",)),
         KeyRow("Tab", "panels, on and off", "panels", ("tab",)),
     ),
@@ -49,22 +50,18 @@ GROUPS: dict[str, tuple[KeyRow, ...]] = {
         KeyRow("Ctrl-S", "saves the run as a scenario", "scenario", ("ctrl-s",)),
         KeyRow("Ctrl-R", "saves the run as a recording", "recording", ("ctrl-r",)),
         KeyRow("drop a file", "plays a .bvh or .amc"),
-        KeyRow("F1", "this", "help", ("f1",)),
-        KeyRow("Escape", "closes this", "close", ("escape",)),
+        KeyRow("F1", "this; Escape closes it", "help", ("f1",)),
+        KeyRow("", "", "close", ("escape",)),
     ),
 }
 ACTIONS = {key: row.action for rows in GROUPS.values() for row in rows for key in row.keys}
-COLUMNS = (("Time", "Throwing"), ("Looking", "Keeping"))
-WIDTH, HEIGHT, KEY_WIDTH, GAP, MARGIN = 370.0, 372.0, 96.0, 8.0, 10.0
+KEY_WIDTH = 92.0
 
 
 def draw_help(ui: Ui) -> None:
-    """Two sheets where the panels are otherwise."""
-    left = max(ui.width - MARGIN - len(COLUMNS) * (WIDTH + GAP) + GAP, 4.0)
-    for number, titles in enumerate(COLUMNS):
-        with ui.area(f"help {number}", left + number * (WIDTH + GAP), MARGIN, WIDTH, HEIGHT):
-            for title in titles:
-                ui.heading(title)
-                for row in GROUPS[title]:
-                    if row.shown:
-                        ui.pair(row.shown, row.does, KEY_WIDTH)
+    """Every row, in the groups."""
+    for title, rows in GROUPS.items():
+        ui.heading(title)
+        for row in rows:
+            if row.shown:
+                ui.pair(row.shown, row.does, KEY_WIDTH)
