@@ -114,12 +114,12 @@ def test_a_rule_is_turned_and_put_back(session):
 def test_angles_are_shown_in_degrees_however_the_scenario_says_them(tmp_path):
     raw = {
         "character": [{"clip": "sway"}],
-        "settings": {"block": {"swivel_small_rad": 0.5}, "wrap": {"swivel_deg": 90}},
+        "settings": {"block": {"swivel_small_rad": 0.5, "swivel_large_deg": 12}},
     }
     session = Session(check_scenario(raw), tmp_path, tmp_path, lambda: 0.0)
     ui = use(session, "Rules")
     assert ui.seen["swivel small"] == pytest.approx(28.6479, abs=1e-4)
-    assert ui.seen["swivel"] == 90
+    assert ui.seen["swivel large"] == 12
 
 
 def test_time_is_slowed_by_a_slider(session):
