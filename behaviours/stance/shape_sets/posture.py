@@ -42,6 +42,7 @@ def _collapsed(a: float) -> Shape:
         collar_y_rad=-0.4 * a,
         collar_z_rad=-0.1 * a,
         pelvis_x_rad=-0.15 * a,
+        balance_z=0.1 * a,
         knee_left_rad=knees,
         knee_right_rad=knees,
         arm_forward_left_rad=arms,

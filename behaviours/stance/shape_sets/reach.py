@@ -60,6 +60,8 @@ def eager(intensity: float, around: Around) -> Shape:
         collar_y_rad=-0.2 * side * a,
         pelvis_x_rad=0.15 * a,
         pelvis_y_rad=-0.2 * side * a,
+        knee_left_rad=0.1 * max(a, 0.0),
+        knee_right_rad=0.1 * max(a, 0.0),
         balance_z=0.6 * around.ahead * a,
         balance_x=0.4 * around.left * a,
         swivel_left_rad=0.3 * a,

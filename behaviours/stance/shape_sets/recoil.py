@@ -32,6 +32,8 @@ def mild(intensity: float, around: Around) -> Shape:
         balance_z=-0.45 * ahead * a,
         pelvis_x_rad=-0.1 * ahead * a,
         pelvis_y_rad=-0.22 * side * a,
+        knee_left_rad=0.12 * max(a, 0.0),
+        knee_right_rad=0.12 * max(a, 0.0),
         gaze=0.75 * min(abs(a), 1.0),
         **_arms(around, 0.5 * a),
     )

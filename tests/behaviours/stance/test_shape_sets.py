@@ -261,3 +261,15 @@ def test_numbers_stay_inside_the_sliders(name):
         for azimuth in np.linspace(-3.0, 3.0, 9):
             numbers = shape_sets.shape_of(name, intensity, Around(azimuth, 0.2, (True, False))).numbers
             assert all(RANGES[n].low <= v <= RANGES[n].high for n, v in numbers._asdict().items())
+
+
+@pytest.mark.parametrize(("name", "intensity"), [(n, s) for n in NAMES for s in (SETS[n].low, SETS[n].high) if s])
+def test_a_large_class_takes_the_lower_body_into_its_curve(name, intensity):
+    """Large S and C include the lower body (5.2): pelvis, balance and a knee go along."""
+    made = shape_sets.shape_of(name, intensity, Around(0.6, 0.1, (False, True)))
+    n, large = made.numbers, ("LargeS", "LargeC")
+    bends = (made.states.sagittal_class in large and n.sagittal) or (made.states.coronal_class in large and n.coronal)
+    if bends:
+        assert any((n.pelvis_x_rad, n.pelvis_z_rad))
+        assert any((n.balance_x, n.balance_z))
+        assert max(n.knee_left_rad, n.knee_right_rad) > 0.05
