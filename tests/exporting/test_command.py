@@ -108,6 +108,6 @@ def test_a_full_disk_leaves_what_was_there(tmp_path, monkeypatch, capsys):
 
     monkeypatch.setattr(files.os, "fsync", full)
     assert main(["export", "sway", *SHORT, "-o", str(target)]) == 3
-    assert "No space left on device" in one_line(capsys)
+    assert "the disk is full" in one_line(capsys)
     assert target.read_text() == "precious"
     assert [path.name for path in tmp_path.iterdir()] == ["a.bvh"]

@@ -25,7 +25,9 @@ def test_every_frame_is_the_world_at_its_tick(footage):
 
 
 def test_what_happened_is_marked(footage):
-    assert [kind for _, kind in footage.marks] == ["perceived", "contact"]
+    kinds = [kind for _, kind in footage.marks]
+    assert kinds[:2] == ["perceived", "contact"]
+    assert set(kinds[2:]) <= {"contact"}  # a ball may come off one hand and meet the other
     assert footage.time_s[-1] == 1.4
     assert PHASE_NAMES[footage.people[0].phase[0]] == "play"
     assert {PHASE_NAMES[phase] for phase in footage.people[0].phase} >= {"play", "protect", "respond"}

@@ -71,7 +71,9 @@ def test_phases_and_marks_tell_the_story(text):
     names = [phase["name"] for phase in head["phases"]]
     assert names[0] == "play"
     assert names.index("protect") < names.index("respond")
-    assert [kind for _, kind in head["marks"]] == ["perceived", "contact"]
+    kinds = [kind for _, kind in head["marks"]]
+    assert kinds[:2] == ["perceived", "contact"]
+    assert set(kinds[2:]) <= {"contact"}  # a ball may come off one hand and meet the other
 
 
 def test_the_camera_looks_at_all_of_them(footage):
