@@ -3,7 +3,6 @@
 import numpy as np
 import pytest
 
-from engine.render.context import Offscreen
 from engine.render.events import LEFT_BUTTON, Key, MouseButton, MouseMove, Scroll, Text
 from engine.render.ui.overlay import Overlay
 from engine.render.ui.style import PAPER
@@ -15,18 +14,18 @@ GREY = 0.5
 class Stage:
     """A small window's worth of widgets. `values` are what the widgets are about."""
 
-    def __init__(self):
-        self.context = Offscreen(SIZE)
-        self.overlay = Overlay(self.context.gl)
+    def __init__(self, gl):
+        self.gl = gl
+        self.overlay = Overlay(gl)
         self.values = {"share": 0.25, "count": 2, "on": False, "word": "", "kind": "a", "clicks": 0}
         self.target, self.scale = None, 1.0
         self.canvas_pressed, self.canvas_mouse = False, None
         self.resize(1.0)
 
     def resize(self, scale):
-        gl, self.scale = self.context.gl, scale
+        self.scale = scale
         size = (int(SIZE[0] * scale), int(SIZE[1] * scale))
-        self.target = gl.framebuffer([gl.texture(size, 4)])
+        self.target = self.gl.framebuffer([self.gl.texture(size, 4)])
 
     def draw(self, ui):
         values = self.values
@@ -56,15 +55,14 @@ class Stage:
 
 
 @pytest.fixture(scope="module")
-def module_stage():
-    stage = Stage()
+def module_stage(_shared_renderer):
+    stage = Stage(_shared_renderer.gl)
     yield stage
     stage.overlay.close()
-    stage.context.close()
 
 
 @pytest.fixture
-def stage(module_stage):
+def stage(module_stage, renderer):
     module_stage.resize(1.0)
     module_stage.values.update(share=0.25, count=2, on=False, word="", clicks=0)
     module_stage.canvas_pressed, module_stage.canvas_mouse = False, None

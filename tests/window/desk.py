@@ -28,18 +28,8 @@ needs_display = pytest.mark.skipif(
 
 @functools.cache
 def make_ready() -> None:
-    """Everything that a window needs and only the first one has to wait for: compiled kernels and a sculpted body."""
-    from demos.filming import studio
-    from demos.running import open_scenario
-    from demos.stage import scene_of
-    from demos.window.session import Session
-    from engine.render.camera import Camera
-
-    session = Session(*open_scenario("sway"), Path(), lambda: 0.0)
-    for _ in range(3):
-        session.advance(1.0)
-    with studio() as renderer:
-        renderer.draw(scene_of(session.world), Camera(), (64, 64))
+    """What only the first window has to wait for, in a process of its own: one GL context a process is enough."""
+    subprocess.run([sys.executable, "-m", "tests.window.ready"], cwd=ROOT, check=True)
 
 
 class Desk:
