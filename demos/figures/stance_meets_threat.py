@@ -47,7 +47,7 @@ class Thrown(NamedTuple):
 
 
 TEMPERS = (
-    Temper("timid", "posture", -0.5, -1.0),
+    Temper("timid", "posture", -0.5, -0.6),
     Temper("tired", "posture", -0.9, 0.2),
     Temper("alert", "interest", 0.7, 0.0),
     Temper("proud", "posture", 1.0, 1.0),
