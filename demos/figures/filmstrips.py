@@ -19,7 +19,7 @@ LOOK = Look(-62.0, 9.0)
 PITCH_M = 1.12
 PICTURES, PICTURES_DOWN = 10, 8  # somebody who lies takes more of the strip
 HEAD, BAND = 28, 26  # units over and under each strip
-NEAR_M = 0.8  # balls farther off, which would fly among the neighbours, are left out
+NEAR_M = 0.75  # balls whose skin is farther off, which would fly among the neighbours, are left out
 MILD: dict[str, Any] = {"azimuth_deg": 25.0, "elevation_deg": 10.0, "speed_mps": 26.0, "size": 0.5, "perceived_s": 0.5}
 EXTREME: dict[str, Any] = {
     **MILD,
@@ -27,7 +27,7 @@ EXTREME: dict[str, Any] = {
     "speed_mps": 29.0,
     "size": 1.0,
     "size_means": "radius",
-    "mass_kg": 4.0,
+    "mass_kg": 2.0,
 }
 KNOCK_DOWN: dict[str, Any] = {
     **MILD, "kind": "custom", "target": "torso", "azimuth_deg": 0.0, "size": 1.0, "mass_kg": 12.0, "radius_m": 0.2,
@@ -102,7 +102,7 @@ def _scene(run: Take, tick: int) -> Scene:
     """The body over the origin, whether it stands or lies."""
     positions, _ = joints_of(run.body, run.frames[tick].pose)
     scene = run.scene(tick, 0.5 * (positions.min(axis=0) + positions.max(axis=0)))
-    scene.balls = [ball for ball in scene.balls if np.hypot(*np.asarray(ball.position_m)[:2]) < NEAR_M]
+    scene.balls = [ball for ball in scene.balls if np.hypot(*np.asarray(ball.position_m)[:2]) < NEAR_M + ball.radius_m]
     return scene
 
 
