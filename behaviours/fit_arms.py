@@ -30,6 +30,7 @@ from behaviours.guard import stop_arm
 from behaviours.least_squares import bounded_step, normal_equations
 from engine.body.skeleton import BACK, SHOULDERS, WRISTS
 from engine.maths import quaternion, vector
+from engine.maths.copying import copy_into
 from engine.maths.inner_kernel import inner_kernel
 
 # an elbow may hang on the wrong side of something: from trouble like this on others are tried, left and right
@@ -64,7 +65,9 @@ def fit_arms(task, controls, posed):
             wish(task, controls, rules if at != 0.5 else beside, math.ceil(at), posed, wishes)
             _fit(task, wishes, at, posed)
             for side in range(2):
-                turned[end, 3 * side : 3 * side + 3] = posed.rotations[SHOULDERS[side] : WRISTS[side] + 1]
+                for joint in range(3):  # shoulder, elbow, wrist
+                    q = quaternion.at(posed.rotations, SHOULDERS[side] + joint)
+                    quaternion.put(turned[end], 3 * side + joint, q)
         mix_arms(bones.offset_m, turned, 2.0 * (share - near), posed)
         wish_as_posed(task.build, posed, wishes)
     return _fit(task, wishes, share, posed)
@@ -86,7 +89,7 @@ def _fit(task, wishes, share, posed):
         wrong = _least_trouble(task, wishes, line, along, begin, posed)
         if wrong < trouble:
             trouble = wrong
-            point[:] = begin
+            copy_into(point, begin)
     for side in range(2):
         palm = put_arm(task, wishes, point, side, posed)
         stop_arm(
@@ -113,15 +116,17 @@ def _least_trouble(task, wishes, line, along, point, posed):
         normal_equations(jacobian, residuals, matrix, slope)
         while True:
             bounded_step(matrix, slope, point, low, high, damping, step)
-            trial[:] = point + step / _too_long(step)
+            times = _too_long(step)
+            for k in range(VARIABLES):
+                trial[k] = point[k] + step[k] / times
             trial_value = _trouble_of(task, wishes, line, along, hard, trial, posed, segments, trial_residuals)
             if trial_value < value or damping >= MOST_DAMPING:
                 break
             damping *= 8.0
         decrease = value - trial_value
         if decrease > 0.0:
-            point[:] = trial
-            residuals[:] = trial_residuals
+            copy_into(point, trial)
+            copy_into(residuals, trial_residuals)
             value = trial_value
             damping = max(0.2 * damping, LEAST_DAMPING)
         if decrease <= TOLERANCE * value or (hard < 1.0 and 2 * done >= ITERATIONS):
@@ -156,7 +161,7 @@ def _trouble_of(task, wishes, line, along, hard, point, posed, segments, residua
 @inner_kernel
 def _slopes(task, wishes, line, along, hard, point, posed, segments, residuals, trial, changed, jacobian):
     """Forward differences of the residuals (ROWS, 14); a number of one arm moves that arm only."""
-    trial[:] = point
+    copy_into(trial, point)
     for side in range(2):
         other = 1 - side
         arm_trouble(task, wishes, line, along, hard, point, other, posed, segments, changed)

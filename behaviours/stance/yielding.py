@@ -20,6 +20,7 @@ from behaviours.stance.assembly import Figure, Plan
 from behaviours.stance.balance import BalanceSearch
 from behaviours.stance.wrists import finish, lacks_at
 from engine.body.skeleton import Body
+from engine.maths.copying import copy_into
 from engine.maths.inner_kernel import inner_kernel
 
 LACK_WEIGHT = 1e4  # what a metre of lack counts against a wish moved to its far point
@@ -64,11 +65,12 @@ def _newton(task, unknowns):
     value, new_value, evaluations = _weigh(task, unknowns, lacks, True), 0.0, 1
     for steps in range(1, MOST_STEPS + 1):
         evaluations += _slopes_at(task, unknowns, lacks, slopes)
-        before[:] = unknowns
+        copy_into(before, unknowns)
         least_squares_step(task.minimum, unknowns, task.stiffness, lacks, slopes, task.bounds, step)
         slope, share = _slope_along(task, unknowns, lacks, slopes, step), 1.0
         for _ in range(MOST_SHORTER + 1):
-            unknowns[:] = before + share * step
+            for k in range(len(unknowns)):
+                unknowns[k] = before[k] + share * step[k]
             new_value, evaluations = _weigh(task, unknowns, new_lacks, True), evaluations + 1
             if new_value < value:
                 break
@@ -76,10 +78,10 @@ def _newton(task, unknowns):
             least = -0.5 * slope * share * share / max(new_value - value - slope * share, 1e-30)
             share = min(max(least, SHORTEST_SHARE * share), LONGEST_SHARE * share)
         if new_value >= value:
-            unknowns[:] = before
+            copy_into(unknowns, before)
             return steps, evaluations
         value = new_value
-        lacks[:] = new_lacks
+        copy_into(lacks, new_lacks)
         if np.max(np.abs(share * step) * np.sqrt(task.stiffness)) < SETTLED:
             return steps, evaluations
     return MOST_STEPS, evaluations
@@ -93,11 +95,18 @@ def _to_the_bottom(task, unknowns):
     far, lacks = 1.0 / np.sqrt(task.stiffness), np.empty(2)
     search = minimise.new_search(unknowns / far)
     while not minimise.finished(search):
-        unknowns[:] = np.minimum(np.maximum(search.trial * far, task.bounds[:, 0]), task.bounds[:, 1])
+        _take(search.trial, far, task.bounds, unknowns)
         value = _weigh(task, unknowns, lacks, True)
         minimise.tell(search, value, BOTTOM_OFFSET, BOTTOM_TOLERANCE, BOTTOM_ITERATIONS, 0)
-    unknowns[:] = np.minimum(np.maximum(search.point * far, task.bounds[:, 0]), task.bounds[:, 1])
+    _take(search.point, far, task.bounds, unknowns)
     return search.counts[minimise.EVALUATIONS]
+
+
+@inner_kernel
+def _take(point, scale, bounds, unknowns):
+    """Writes the unknowns that a point of the search (n,) stands for, within their bounds (n, 2)."""
+    for k in range(len(unknowns)):
+        unknowns[k] = min(max(point[k] * scale[k], bounds[k, 0]), bounds[k, 1])
 
 
 @inner_kernel

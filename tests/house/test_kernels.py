@@ -1,10 +1,12 @@
-"""A compiled kernel never outlives a source that it was compiled from."""
+"""A compiled kernel never outlives a source that it was compiled from, and drags nothing along that costs set-up."""
 
+import ast
 import os
 
 import pytest
 
 from demos.kernels import forget_stale
+from tests.conftest import ROOT
 
 SOURCES = {
     "engine/maths/vector.py": "from numba import njit\n",
@@ -82,3 +84,40 @@ def test_numba_itself_would_have_run_the_old_code(tmp_path):
     assert run() == "41"  # should numba ever learn it, this module can go
     assert "engine/caller.py" in forget_stale(tmp_path)
     assert run() == "42"
+
+
+def is_number(node):
+    """A literal, np.nan, or a negative or several of these."""
+    if isinstance(node, ast.Tuple):
+        return all(map(is_number, node.elts))
+    return isinstance(node, (ast.Constant, ast.Attribute)) or (
+        isinstance(node, ast.UnaryOp) and is_number(node.operand)
+    )
+
+
+def slices_that_take_an_array(source):
+    """The lines of kernels in which a slice of an array is given another array; see engine.maths.copying."""
+    for function in ast.parse(source).body:
+        marks = " ".join(map(ast.unparse, getattr(function, "decorator_list", ())))
+        if "njit" not in marks and "inner_kernel" not in marks:
+            continue
+        for node in ast.walk(function):
+            targets = node.targets if isinstance(node, ast.Assign) else ()
+            places = [place for target in targets for place in ast.walk(target) if isinstance(place, ast.Subscript)]
+            sliced = any(isinstance(part, ast.Slice) for place in places for part in ast.walk(place.slice))
+            if sliced and not is_number(node.value):
+                yield node.lineno
+
+
+def test_such_slices_are_found():
+    few = (" a[:] = 0.0", " a[:2], b[:] = np.nan, -1.0", " a[1, 2:] = b", " a[1] = b[0]")
+    lines = ("@njit(cache=True)", "def f(a, b):", *few)
+    assert list(slices_that_take_an_array("\n".join(lines))) == [5]
+    assert not list(slices_that_take_an_array("def f(a, b):\n    a[:] = b\n"))
+
+
+def test_no_kernel_assigns_an_array_to_a_slice():
+    """It would compile Numba's text handling into the kernel and all its callers."""
+    rooms = [path for room in ("engine", "behaviours", "demos") for path in sorted((ROOT / room).rglob("*.py"))]
+    found = {path.relative_to(ROOT).as_posix(): list(slices_that_take_an_array(path.read_text())) for path in rooms}
+    assert not {name: lines for name, lines in found.items() if lines}
