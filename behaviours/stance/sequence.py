@@ -90,8 +90,8 @@ def standing_root(body: Body, start: Footprints, end: Footprints, root: int) -> 
     """The dominant foot of a move: the one that is asked for, but never one that lifts while the other stays down
     (section 4).
     """
-    flat = [footprints.raised(body, feet, -feet.toe_rad) for feet in (start, end)]
-    moves = [_moves(*flat, side) for side in range(2)]
+    flat_start, flat_end = (footprints.raised(body, feet, -feet.toe_rad) for feet in (start, end))
+    moves = [_moves(flat_start, flat_end, side) for side in range(2)]
     return 1 - root if moves[root] and not moves[1 - root] else root
 
 
