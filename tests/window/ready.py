@@ -1,4 +1,4 @@
-"""A whole reaction and a picture, without a window: compiles every kernel and sculpts the body that a window will need."""
+"""A whole reaction and a picture, without a window: compiles the kernels and sculpts the body that windows need."""
 
 from __future__ import annotations
 
