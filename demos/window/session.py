@@ -37,6 +37,7 @@ from engine.render.camera import Camera, ray_through
 RATES = (0.05, 0.1, 0.25, 0.5, 1.0, 2.0)
 TICKS_BUDGET_S = 0.025  # a frame spends at most this on ticks: what does not fit slows the show down, not the window
 REHEARSED_TICKS = 200
+FIRST_FRAMES = 3  # are shown before anything is rehearsed
 RERUN_BUDGET_S = 0.020  # and this on running a changed scenario
 
 
@@ -68,7 +69,7 @@ class Session:
         self._dice = random.Random(scenario.seed)
         self._next_fire = 0
         self._rehearsal: Run | None = None
-        self._rehearse = REHEARSED_TICKS
+        self._rehearse, self._frames = REHEARSED_TICKS, 0
         self._wanted: tuple[Scenario, Inputs] | None = None
         self._rerun: Run | None = None
 
@@ -317,7 +318,8 @@ class Session:
         """A few ticks of a reaction that nobody sees, in the first frames: what it needs of compiled code is loaded
         then, and not in the middle of the first real one.
         """
-        if self._rehearse <= 0:
+        self._frames += 1
+        if self._rehearse <= 0 or self._frames <= FIRST_FRAMES:
             return
         if self._rehearsal is None:
             inputs = {0: [{"do": "threaten", "threat": self.threat.spec(self.selected)}]}
