@@ -19,7 +19,7 @@ from engine.body.kinematics import centre_of_mass
 
 DEARER = (5.0, 25.0, 125.0)  # rounds of making limits cost more, where legs still overstep them
 # shares of the way that the COM has to go, metres down, and recoil, whose own limit is a kink on the way to more of it
-BRACED_STARTS = ((0.0, 0.04, 0.0), (1.0, 0.05, 0.3))
+BRACED_STARTS = ((0.0, 0.04, 0.0), (1.0, 0.05, 0.3), (0.5, 0.02, -0.5), (1.0, 0.0, 0.6))
 ARMS_MATTER_M = 5e-4  # of COM, when arms are fitted in
 DRAWN_BACK = 14  # halvings of the way back to what planted legs can do
 
@@ -56,7 +56,7 @@ def solve_by_least_squares(
         braced = start.copy()
         braced[:2] += share * (np.array(reference.com_wanted_m) - reference.com_rules_m)
         braced[2] -= down_m
-        braced[3 + RECOIL] = min(1.0, braced[3 + RECOIL] + recoil)
+        braced[3 + RECOIL] = min(1.0, max(0.0, braced[3 + RECOIL] + recoil))
         begins.append(braced)
     ends = [solve_least_squares(task, reference, x, posed, s.polish_tolerance, s.iterations) for x in begins]
     best = min(ends, key=lambda end: end.value)

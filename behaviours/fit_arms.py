@@ -35,7 +35,10 @@ from engine.maths.inner_kernel import inner_kernel
 
 # an elbow may hang on the wrong side of something: from trouble like this on others are tried, left and right
 ENOUGH_TROUBLE = 9.0
-OTHER_SWINGS_RAD = ((0.8, 0.0), (0.0, 0.8), (-0.8, 0.0), (0.0, -0.8), (0.8, 0.8), (-0.8, -0.8))
+OTHER_SWINGS_RAD = (
+    (0.8, 0.0), (0.0, 0.8), (-0.8, 0.0), (0.0, -0.8), (0.8, 0.8), (-0.8, -0.8), (1.6, 0.0), (0.0, 1.6), (-1.6, 0.0),
+    (0.0, -1.6),
+)  # fmt: skip
 
 STEP = 1e-5  # of the differences
 LONGEST_M, LONGEST_RAD = 0.05, 0.25  # that one step moves a palm, turns a hand or an elbow

@@ -89,7 +89,9 @@ class Wrap(NamedTuple):
 
     behind_low: Annotated[float, Constant("1", "A5", "facing . threat at and below which the arms wrap fully")] = -0.15
     behind_high: Annotated[float, Constant("1", "A5", "facing . threat at and above which they block fully")] = 0.15
-    palm_gap_m: Annotated[float, Constant("m", "3.4", "skin of the hand off the back of the head")] = 0.0
+    palm_gap_m: Annotated[
+        float, Constant("m", "3.4", "skin of the hand off the head: it gives way before the head does")
+    ] = 0.03
     palm_aside_rad: Annotated[
         float, Constant("rad", "3.4", "each palm from the middle of the head's back to its own side")
     ] = radians(40)
