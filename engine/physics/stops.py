@@ -31,10 +31,10 @@ from engine.physics.tracking import world_frames
 EASE_S = 0.006
 MOST_ROWS = 48  # more stops than this at once are those of a body that is nowhere near a person's pose
 NEAR_MPS = 0.05  # a bound that is met by less than this may be broken by the impulses of others: it is kept in view
-NEAR_RAD = 0.7  # the same for limits of one joint: nothing turns farther than this in EASE_S
+NEAR_RAD = 0.4  # the same for limits of one joint: nothing turns farther than this in EASE_S
 SWEEPS = 40
 CREEP_RADPS, CREEP_MPS = 0.3, 0.02
-FARTHEST_M = 0.25  # nothing within a body closes faster than this in EASE_S
+FARTHEST_M = 0.15  # nothing within a body closes faster than this in EASE_S
 LEAST_APART_M = 1e-6  # of two axes: nearer than this, there is no saying which way is out
 TOUCHING_M, TOUCHING_RAD = 0.01, 0.05  # what a blow closes at once: these count as touching
 MOST_SWING_RAD = 2.9  # nearer to half a turn, where the axis of a swing flips, its components say nothing
@@ -260,6 +260,11 @@ def _limits_of(j, qpos, qvel, low, high, target, ease_s, limp, farthest_rad, row
     q = quaternion.normalise((qpos[a], qpos[a + 1], qpos[a + 2], qpos[a + 3]))
     now, aim = components(q), components(target)
     if now[0] * now[0] + now[1] * now[1] > MOST_SWING_RAD**2:
+        return count
+    near = False
+    for k in range(3):
+        near |= min(now[k] - min(low[k], aim[k]), max(high[k], aim[k]) - now[k]) <= farthest_rad
+    if not near:
         return count
     turned = (
         components(quaternion.multiply(q, quaternion.from_rotation_vector((NUDGE_RAD, 0.0, 0.0)))),
