@@ -25,7 +25,7 @@ from engine.maths import vector
 from engine.maths.copying import copy_into
 from engine.maths.inner_kernel import inner_kernel
 
-MOMENTS = 17  # at which a way is judged
+MOMENTS = 25  # at which a way is judged
 APART_M = 0.010  # skins keep this far from each other, where they are so far at the ends
 TOLERATED_M, TOLERATED_RAD = 0.008, 0.005  # a way is good if it comes this near to what it should not
 STRIDE_M = 1.6  # an elbow that at its fastest would go farther than this in a whole blend turns over

@@ -40,6 +40,7 @@ from behaviours.rules.startle import startle_pose
 from behaviours.search import choose_return
 from behaviours.settling import settled_pose
 from behaviours.sources import choose_hand_ways, foot_goals, source_pose
+from behaviours.startled import within_reach
 from behaviours.sustained import Case
 from behaviours.timing import TICK_S, time_to_contact_s, whole_ticks
 from engine.body.kinematics import com_of, joints_of
@@ -98,9 +99,10 @@ def begin_startle(world, row: int, tick: int, threat_row: int) -> None:
     ahead_s = world[Reaction].clip_s[row] + settings.timing.startle_ahead_s
     ahead = clip_pose(world, row, ahead_s)
     toward = -world[Threat].travel[threat_row]
-    startled = startle_pose(body_of(world, row), ahead, toward, settings)
+    body = body_of(world, row)
+    startled = startle_pose(body, ahead, toward, settings)
     plant_standing_feet(world, row, tick)
-    startled = standing_in(world, row, tick, startled)
+    startled = within_reach(body, now, ahead, startled, lambda pose: standing_in(world, row, tick, pose))
     begin_blend(world, row, tick, now, startled, float(whole_ticks(settings.timing.startle_s)))
     enter(world, row, tick, Phase.STARTLE)
     keep_continuous(world, row, tick, old)

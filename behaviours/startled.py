@@ -1,0 +1,50 @@
+"""A startle pose that its owner can be in: on the feet that stand, within the legs' limits, no arm in the body.
+
+The reflex (thesis 3.2.6) is laid on the pose of the clip a moment ahead. A planted foot stays behind the pelvis there,
+and the recoil takes the hands of arms that hang into the hips. Both are then done by a smaller share.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import numpy as np
+
+from behaviours.overlap import overlaps_m
+from engine.body.limits import excess_rad
+from engine.body.skeleton import CLAVICLES, ELBOWS, HIPS, SHOULDERS, WRISTS, Body, Pose
+from engine.maths import quaternion
+
+SHARES = np.linspace(1.0, 0.0, 6)
+TOLERATED_RAD, TOLERATED_M = 0.005, 0.002
+ARMS = (*CLAVICLES, *SHOULDERS, *ELBOWS, *WRISTS)
+
+
+def within_reach(body: Body, now: Pose, ahead: Pose, startled: Pose, stand: Callable[[Pose], Pose]) -> Pose:
+    """The startle pose, stood on the feet by `stand`: the largest share of its recoil at which no arm goes deeper into
+    the body than now or in the clip ahead, and of its pelvis's way at which the legs go no farther beyond their limits.
+    """
+    own = np.maximum(excess_rad(body, now.rotations), excess_rad(body, ahead.rotations))[HIPS[0] :]
+    pose = clear_of_body(body, now, ahead, startled)
+    for share in SHARES:
+        stood = stand(Pose(now.root_m + share * (pose.root_m - now.root_m), pose.rotations.copy()))
+        if (excess_rad(body, stood.rotations)[HIPS[0] :] - own).max() < TOLERATED_RAD:
+            break
+    return stood
+
+
+def clear_of_body(body: Body, now: Pose, ahead: Pose, startled: Pose) -> Pose:
+    """The startle pose, its arms recoiled from those of the clip ahead only so far as is free."""
+    own = np.maximum(overlaps_m(body, _one(now)), overlaps_m(body, _one(ahead))).max(axis=0)
+    for share in SHARES:
+        pose = Pose(startled.root_m.copy(), startled.rotations.copy())
+        for joint in ARMS:
+            pose.rotations[joint] = quaternion.slerp(ahead.rotations[joint], startled.rotations[joint], share)
+        if (overlaps_m(body, _one(pose))[0] - np.maximum(own, 0.0)).max() < TOLERATED_M:
+            break
+    return pose
+
+
+def _one(pose: Pose) -> Pose:
+    """With a leading axis of one."""
+    return Pose(pose.root_m[np.newaxis], pose.rotations[np.newaxis])
