@@ -11,7 +11,7 @@ import numpy as np
 
 from behaviours import minimise
 from behaviours.apply_rules import apply_rules
-from behaviours.balance_search import draw_back, keep_limits, solve, starts_of, weigh_arms
+from behaviours.balance_search import draw_back, keep_limits, legs_trouble, solve, starts_of, weigh_arms
 from behaviours.exact_feet import EXACT, pose_exactly
 from behaviours.mirroring import (
     mirror_choices,
@@ -160,7 +160,10 @@ def controls_allowed(task: Task, posed: Posed, settings: Settings) -> np.ndarray
     """
     wanted = np.concatenate([np.zeros(3), controls_from_threat(task.threat.speed_norm, task.threat.size_norm)])
     _, upright = starts_of(wanted)
-    return draw_back(task, upright, wanted, posed, settings.balance.foot_tolerance_m)[3:]
+    tolerance_m = settings.balance.foot_tolerance_m
+    if legs_trouble(task, upright, posed, tolerance_m) >= task.rules.limit_margin_rad:
+        return wanted[3:]  # it is not lean and turn that take a leg beyond: the search moves the pelvis
+    return draw_back(task, upright, wanted, posed, tolerance_m)[3:]
 
 
 def refer_to(task: Task, posed: Posed, com_m, controls, settings: Settings) -> Reference:
