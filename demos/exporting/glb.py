@@ -59,16 +59,18 @@ def glb_bytes(footage: Footage) -> bytes:
         for number, ball in enumerate(footage.balls):
             _add_ball(document, f"ball_{number}", ball, mesh, footage.time_s)
     material = {"metallicFactor": 0.0, "roughnessFactor": 0.65}
-    return document.buffer.glb({
-        "asset": {"version": "2.0", "generator": "Brace"},
-        "scene": 0,
-        "scenes": [{"name": footage.title, "nodes": document.roots}],
-        "nodes": document.nodes,
-        "meshes": document.meshes,
-        "skins": document.skins,
-        "materials": [{"name": "painted", "pbrMetallicRoughness": material}],
-        "animations": [{"name": footage.title, "channels": document.channels, "samplers": document.samplers}],
-    })
+    return document.buffer.glb(
+        {
+            "asset": {"version": "2.0", "generator": "Brace"},
+            "scene": 0,
+            "scenes": [{"name": footage.title, "nodes": document.roots}],
+            "nodes": document.nodes,
+            "meshes": document.meshes,
+            "skins": document.skins,
+            "materials": [{"name": "painted", "pbrMetallicRoughness": material}],
+            "animations": [{"name": footage.title, "channels": document.channels, "samplers": document.samplers}],
+        }
+    )
 
 
 def _add_person(document: Document, person: Person) -> None:
