@@ -206,7 +206,7 @@ class Temper(NamedTuple):
     size_share: Annotated[
         float, Constant("1", "S9", "a timid character takes it for this much larger, a bold one smaller")
     ] = 0.5
-    speed_share: Annotated[float, Constant("1", "S9", "and for this much faster: it leans farther away")] = 0.55
+    speed_share: Annotated[float, Constant("1", "S9", "and for this much faster: it leans farther away")] = 0.65
 
 
 class Threats(NamedTuple):
