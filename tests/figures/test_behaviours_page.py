@@ -16,6 +16,7 @@ TEXT = PAGE.read_text(encoding="utf-8")
 ROWS = [[cell.strip() for cell in line.strip("|").split("|")] for line in TEXT.splitlines() if line.startswith("| ")]
 TABLES = [row for row in ROWS if re.search(r"\]\(\S+\.py\)", " ".join(row))]
 MOST_BYTES = 600_000
+MOST_BYTES_OF_A_FILM = 3_000_000
 
 
 def test_links_lead_somewhere():
@@ -44,9 +45,21 @@ def test_figures_of_the_table_exist():
 
 def test_the_pictures_are_whole_and_small():
     shown = re.findall(r"\]\(pictures/(\S+)\.png\)", TEXT)
-    assert sorted(shown) == sorted(SHOWN) == sorted(path.stem for path in FOLDER.iterdir())
+    drawn = sorted(FOLDER.glob("*.png"))
+    assert sorted(shown) == sorted(SHOWN) == sorted(path.stem for path in drawn)
     for name in shown:
         with Image.open(FOLDER / f"{name}.png") as picture:
             picture.load()
             assert picture.width >= 500
-    assert sum(path.stat().st_size for path in FOLDER.iterdir()) < MOST_BYTES
+    assert sum(path.stat().st_size for path in drawn) < MOST_BYTES
+
+
+def test_the_film_of_the_front_page_moves_and_is_the_only_other_picture():
+    (film,) = [path for path in FOLDER.iterdir() if path.suffix != ".png"]
+    assert f"behaviours/pictures/{film.name}" in (ROOT / "README.md").read_text(encoding="utf-8")
+    assert film.stat().st_size < MOST_BYTES_OF_A_FILM
+    with Image.open(film) as frames:
+        assert frames.n_frames > 20
+        first = frames.convert("RGB").tobytes()
+        frames.seek(frames.n_frames // 2)
+        assert frames.convert("RGB").tobytes() != first
