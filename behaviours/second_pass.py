@@ -22,7 +22,7 @@ TRIES, LAST_TRIES = 5, 2
 # from two fifths of that to nearly all of it; of either, each try leaves less than a half
 GAIN = 1.5
 LAST_GAIN = 0.7
-AHEAD_GAIN = 1.0  # how far the COM hurries on along its line for a pelvis that has to sink by one
+AHEAD_GAIN = 0.6  # how far the COM hurries on along its line for a pelvis that has to sink by one
 LEGS_SHARE = 0.5  # of the pelvis's way that the legs go, feet held
 
 
