@@ -22,6 +22,7 @@ from engine.maths import quaternion, vector
 from engine.maths.inner_kernel import inner_kernel
 
 SOFT_REACH_M = 0.01  # spec A4: reach saturates over 1 cm
+STRAIGHT_NOISE_RAD = 5e-8  # what the last bit of a straight limb's length makes of its angle
 KEEP = math.nan  # as swivel: leave the mid joint where the least swing leaves it
 
 
@@ -76,7 +77,9 @@ def soft_reach(wanted_m, present_m, full_m, soft_m):
     x = min(max(present_m - start, 0.0), soft_m)
     # the width for which the cubic passes through (x, x): 2 W^2 - W (3 s + x) + 2 x s = 0
     width = 0.25 * (3.0 * soft_m + x + math.sqrt(max((soft_m - x) * (9.0 * soft_m - x), 0.0)))
-    t = min((wanted_m - start) / width, 1.0)
+    t = (wanted_m - start) / width
+    if t >= 1.0:
+        return full_m
     return start + width * t * (1.0 - t) * (1.0 - t) + soft_m * t * t * (3.0 - 2.0 * t)
 
 
@@ -105,13 +108,15 @@ def _bend(u, v, hinge, target_m, greatest_rad, soft_m):
     if across < 1e-12:
         return 0.0
     fixed = vector.inner(u, u) + vector.inner(v, v) + 2.0 * u_along * v_along
-    reach_m = soft_reach(target_m, present_m, math.sqrt(fixed + 2.0 * across), soft_m)
+    full_m = math.sqrt(fixed + 2.0 * across)
+    reach_m = soft_reach(target_m, present_m, full_m, soft_m)
     if abs(reach_m - present_m) < 1e-13:
         return 0.0
     present = math.atan2(vector.inner(hinge, vector.cross(u, v)), vector.inner(u, v) - u_along * v_along)
-    cosine = min(max((reach_m * reach_m - fixed) / (2.0 * across), -1.0), 1.0)
-    wanted = min(math.acos(cosine), max(greatest_rad, present))
-    return _flexion_towards(wanted, present) - present
+    half_sine = math.sqrt(min(max((full_m - reach_m) * (full_m + reach_m) / (4.0 * across), 0.0), 1.0))
+    wanted = min(2.0 * math.asin(half_sine), max(greatest_rad, present))
+    bend = _flexion_towards(wanted, present) - present
+    return 0.0 if abs(bend) < STRAIGHT_NOISE_RAD else bend
 
 
 @inner_kernel

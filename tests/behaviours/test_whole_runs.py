@@ -21,7 +21,7 @@ from engine.core.clock import TICK_RATE_HZ, Clock
 from engine.core.recorder import new_journal
 from engine.core.timeline import Timeline
 from tests.behaviours.knocked import HEAVY
-from tests.behaviours.runs import AHEAD, events, phases, run, simulation_of, track_of
+from tests.behaviours.runs import AHEAD, events, joints_until_contact, mirrored_back, phases, run, simulation_of, track_of
 
 ROOT = Path(__file__).resolve().parents[2]
 FALL = {**HEAVY, "elevation_deg": 10.0, "azimuth_deg": 150.0, "perceived_s": 0.1, "ttc_s": 0.4}
@@ -168,6 +168,20 @@ def test_real_people_react_and_go_on(file, start_s, azimuth, shared_mocap):
     assert metrics["recovered_to"] == clip.name
     assert seam_jumps(track_of(simulation))[0] < 0.0005
     assert np.isfinite(track_of(simulation).pose.rotations).all()
+
+
+def test_straight_knees_are_mirrored_to_the_last_digits_too(shared_mocap):
+    """A straight leg's angle has half the digits of its length, and a seam's velocity shows every one of them."""
+    clip = find_clip(str(shared_mocap / "asfamc" / "16_08.amc"))
+    threat = {**AHEAD, "target": "pelvis", "elevation_deg": 10.691112481163444, "speed_mps": 25.042311465784135}
+    threat |= {"size": 0.9999580864780446}
+
+    def joints_m(side: float, mirrored: bool) -> np.ndarray:
+        thrown = [threat | {"azimuth_deg": side * -36.21944153085971, "perceived_s": 0.15}]
+        whole = run(thrown, clip=clip, startle=True, start_s=0.3311649982192084, mirrored=mirrored, duration_s=1.2)
+        return joints_until_contact(track_of(whole))
+
+    np.testing.assert_allclose(joints_m(1.0, False), mirrored_back(joints_m(-1.0, True)), rtol=0.0, atol=1e-6)
 
 
 def test_one_who_stands_on_one_leg_in_the_files_stands_on_it_in_the_sustained_pose(shared_mocap):
