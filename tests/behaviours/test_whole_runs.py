@@ -21,7 +21,16 @@ from engine.core.clock import TICK_RATE_HZ, Clock
 from engine.core.recorder import new_journal
 from engine.core.timeline import Timeline
 from tests.behaviours.knocked import HEAVY
-from tests.behaviours.runs import AHEAD, events, joints_until_contact, mirrored_back, phases, run, simulation_of, track_of
+from tests.behaviours.runs import (
+    AHEAD,
+    events,
+    joints_until_contact,
+    mirrored_back,
+    phases,
+    run,
+    simulation_of,
+    track_of,
+)
 
 ROOT = Path(__file__).resolve().parents[2]
 FALL = {**HEAVY, "elevation_deg": 10.0, "azimuth_deg": 150.0, "perceived_s": 0.1, "ttc_s": 0.4}
