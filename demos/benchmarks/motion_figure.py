@@ -48,14 +48,13 @@ def greatest(rows: list[Row], name: str, limit: float | None, of: Of, counted: s
     return Figure(name, float(values[at]), bar, over == 0, len(kept), over, kept[at], counted)
 
 
-def share(rows: list[Row], name: str, least: float, of: Of, counted: str) -> Figure:
-    """Of how many cases something holds, percent; the first of which it does not is the worst."""
+def share(rows: list[Row], name: str, least: float | None, of: Of, counted: str) -> Figure:
+    """Of how many cases something holds, percent; the first of which it does not is the worst. least None: no bar."""
     kept, values = _values(rows, of)
     percent = 100.0 * float(values.mean()) if kept else float("nan")
     worst = next((row for row, value in zip(kept, values, strict=True) if not value), None)
-    return Figure(
-        name, percent, f">= {least:g}", percent >= least, len(kept), int((values == 0.0).sum()), worst, counted
-    )
+    bar, met = ("-", True) if least is None else (f">= {least:g}", percent >= least)
+    return Figure(name, percent, bar, met, len(kept), int((values == 0.0).sum()), worst, counted)
 
 
 def median(rows: list[Row], name: str, least: float, of: Of, counted: str) -> Figure:

@@ -25,6 +25,7 @@ from engine.physics import impact
 EVERY_MIRRORED = 4
 DEAD_AHEAD_DEG = 2.0  # left out of the comparison with the mirror image: there a side is chosen
 PROTECTING = (Phase.STARTLE, Phase.PROTECT)
+HEAD_PARTS = ("head", "neck")
 RECOVERING = (Phase.RECOVER_BLEND, Phase.RECOVER_RETURN)
 LONGEST_FLIGHT_TICKS = 240
 OFF_LINE = (HandWay.BOWED, HandWay.LED)
@@ -101,7 +102,7 @@ def run_case(case: Case, clips: dict[str, Clip]) -> Row:
     met = touched and simulation.promised_s is not None
     row["promise_error_s"] = touched[0]["at_s"] - simulation.promised_s if met else None
     if case.target == "head":
-        row["bare_head_peak_g"] = bare_head_peak_g(case, clips)
+        row |= unprotected(case, clips)
     if case.number % EVERY_MIRRORED == 0 and abs(case.azimuth_deg) > DEAD_AHEAD_DEG:
         row["asymmetry_m"] = asymmetry_m(simulation.track, play(scenario_of(case, mirrored=True), clips).track)
     return row
@@ -167,13 +168,16 @@ def fall_of(simulation: Timed) -> Row:
     return row
 
 
-def bare_head_peak_g(case: Case, clips: dict[str, Clip]) -> float | None:
-    """What the head of somebody who sees nothing coming has of the same threat; None where it touches nobody."""
-    simulation = Timed(scenario_of(case, protects=False), clips)
-    for _ in range(simulation.ticks):
-        simulation.step()
+def unprotected(case: Case, clips: dict[str, Clip]) -> Row:
+    """What somebody who sees nothing coming has of the same threat: the head's peak, None where it touches nobody; and
+    whether it meets the head at all, being thrown at where a head that leans away is.
+    """
+    simulation = play(scenario_of(case, protects=False), clips)
     head_g = head_acceleration_g(simulation.track)
-    return float(head_g.max()) if len(head_g) else None
+    return {
+        "bare_head_peak_g": float(head_g.max()) if len(head_g) else None,
+        "bare_head_met": any(event["part"] in HEAD_PARTS for event in simulation.events("contact", "touch")),
+    }
 
 
 def asymmetry_m(track: Track, mirrored: Track) -> float:

@@ -135,6 +135,11 @@ def _of_blows(rows: list[Row]) -> list[Figure]:
             rows, "head is hit less hard than unprotected, %", 90.0, _spared,
             f"threats to the head from anywhere; left out: {left_out} of {len(heads)}, nobody struck in one run",
         ),
+        share(
+            rows, "the same where the ball meets that bare head, %", None, _spared_where_met,
+            "of those threats the ones that meet the unprotected head or neck; the others, thrown at a head that leans "
+            "away, brush an arm or the trunk of one that does not",
+        ),
         median(rows, "median cut of the head's peak acceleration, %", 40.0, _cut, "the same threats"),
     ]  # fmt: skip
 
@@ -196,6 +201,10 @@ def _both(row: Row) -> tuple[float, float] | None:
 
 def _spared(row: Row) -> float | None:
     return None if (pair := _both(row)) is None else float(pair[0] < pair[1])
+
+
+def _spared_where_met(row: Row) -> float | None:
+    return _spared(row) if row.get("bare_head_met") else None
 
 
 def _cut(row: Row) -> float | None:
