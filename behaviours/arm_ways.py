@@ -155,9 +155,9 @@ def outside(low, high, first, last, weight, value):
 
 
 @njit(cache=True)
-def yielding(excess):
-    """What is left of an excess: nothing is taken away at first, in the end all but BEYOND_RAD."""
-    return excess * BEYOND_RAD / (abs(excess) + BEYOND_RAD)
+def yielding(excess, most_rad=BEYOND_RAD):
+    """What is left of an excess: nothing is taken away at first, in the end all but `most_rad`."""
+    return excess * most_rad / (abs(excess) + most_rad)
 
 
 @inner_kernel
@@ -175,15 +175,15 @@ def overstep(body, joint, first, last, weight, q):
 
 
 @inner_kernel
-def within_limits(body, joint, first, last, weight, q):
-    """A rotation, drawn back to its limits gently; and whether that changed anything."""
+def within_limits(body, joint, first, last, weight, q, most_rad):
+    """A rotation, drawn back to its limits gently, which give that much at most; and whether that changed anything."""
     beyond, c = overstep(body, joint, first, last, weight, q)
     if beyond[0] == 0.0 and beyond[1] == 0.0 and beyond[2] == 0.0:
         return (q[0] * 1.0, q[1] * 1.0, q[2] * 1.0, q[3] * 1.0), False
     return limits.from_components(
-        c[0] - beyond[0] + yielding(beyond[0]),
-        c[1] - beyond[1] + yielding(beyond[1]),
-        c[2] - beyond[2] + yielding(beyond[2]),
+        c[0] - beyond[0] + yielding(beyond[0], most_rad),
+        c[1] - beyond[1] + yielding(beyond[1], most_rad),
+        c[2] - beyond[2] + yielding(beyond[2], most_rad),
     ), True
 
 
@@ -192,7 +192,7 @@ def keep_within_limits(body, first, last, weight, side, rotations, positions, or
     """Shoulder and elbow drawn back to their limits, in place. Returns how far that moves the hand, metres."""
     was, moved = vector.at(positions, WRISTS[side]), False
     for joint in (SHOULDERS[side], ELBOWS[side]):
-        q, changed = within_limits(body, joint, first[joint], last[joint], weight, rotations[joint])
+        q, changed = within_limits(body, joint, first[joint], last[joint], weight, rotations[joint], BEYOND_RAD)
         if changed:
             quaternion.put(rotations, joint, q)
             moved = True

@@ -8,15 +8,18 @@ shoulders (specification A7).
 
 from __future__ import annotations
 
-from behaviours.arm_ways import follow_way, within_limits
+import math
+
+from behaviours.arm_ways import BEYOND_RAD, follow_way, within_limits
 from behaviours.held_feet import hold_feet, leg_lengths
 from behaviours.neck_line import hold_neck
 from engine.body.kinematics import centre_of_mass, joints_into
-from engine.body.limb_ik import turn_end_to
-from engine.body.skeleton import ANKLES, BACK, HEAD, HIPS, KNEES, NECK, TOES, WAIST
+from engine.body.limb_ik import place_children, turn_end_to
+from engine.body.skeleton import ANKLES, BACK, HEAD, HIPS, KNEES, NECK, PELVIS, TOES, WAIST
 from engine.maths import quaternion, vector
 from engine.maths.inner_kernel import inner_kernel
 
+LEG_BEYOND_RAD = math.radians(0.2)  # what a leg's limits give: twice that, where a blend ends in another one
 TRIES, LAST_TRIES = 5, 2
 # how far the pelvis moves for a COM that is off by one: feet, neck and hands stay behind, so that it brings the COM
 # from two fifths of that to nearly all of it; of either, each try leaves less than a half
@@ -97,6 +100,7 @@ def hold_ends(body, start, end, weight, goals, ways, knees, root_m, rotations, p
         if not goals.bound[side]:
             slerp_foot(body, start, end, weight, side, rotations, positions, orientations)
         if goals.bears[side] < 1.0:
+            ease_hip(body, start, end, weight, side, goals.bears[side], rotations, positions, orientations)
             ease_ankle(body, start, end, weight, side, goals.bears[side], rotations, positions, orientations)
     neck_m = vector.mix(vector.at(start.positions, NECK), vector.at(end.positions, NECK), weight)
     hold_neck(body, neck_m, root_m, rotations, positions, orientations)
@@ -115,10 +119,30 @@ def slerp_foot(body, start, end, weight, side, rotations, positions, orientation
 
 
 @inner_kernel
+def ease_hip(body, start, end, weight, side, bears, rotations, positions, orientations):
+    """Draws the hip of a leg in the air back to where it goes, the sole as it was; the less, the more its foot bears.
+    The foot stays behind its plan. In place.
+    """
+    hip, knee, ankle = HIPS[side], KNEES[side], ANKLES[side]
+    q, changed = within_limits(
+        body, hip, start.rotations[hip], end.rotations[hip], weight, rotations[hip], LEG_BEYOND_RAD
+    )
+    if changed:
+        turned = quaternion.at(orientations, ankle)
+        quaternion.put(rotations, hip, quaternion.slerp(q, quaternion.at(rotations, hip), bears))
+        place_children(body.offset_m, rotations, positions, orientations, PELVIS, hip)
+        place_children(body.offset_m, rotations, positions, orientations, hip, knee)
+        place_children(body.offset_m, rotations, positions, orientations, knee, ankle)
+        turn_end_to(body.offset_m, rotations, positions, orientations, knee, ankle, turned, TOES[side])
+
+
+@inner_kernel
 def ease_ankle(body, start, end, weight, side, bears, rotations, positions, orientations):
     """Turns a foot in the air back to where its ankle goes; the less, the more it bears. In place."""
     ankle = ANKLES[side]
-    q, changed = within_limits(body, ankle, start.rotations[ankle], end.rotations[ankle], weight, rotations[ankle])
+    q, changed = within_limits(
+        body, ankle, start.rotations[ankle], end.rotations[ankle], weight, rotations[ankle], LEG_BEYOND_RAD
+    )
     if changed:
         eased = quaternion.slerp(q, quaternion.at(rotations, ankle), bears)
         turned = quaternion.multiply(quaternion.at(orientations, KNEES[side]), eased)
@@ -133,6 +157,6 @@ def slerp_head(body, start, end, weight, rotations, orientations):
     turned = quaternion.slerp(start.orientations[HEAD], end.orientations[HEAD], weight)
     below = quaternion.at(orientations, NECK)
     local = quaternion.normalise(quaternion.multiply(quaternion.conjugate(below), turned))
-    local = within_limits(body, HEAD, start.rotations[HEAD], end.rotations[HEAD], weight, local)[0]
+    local = within_limits(body, HEAD, start.rotations[HEAD], end.rotations[HEAD], weight, local, BEYOND_RAD)[0]
     quaternion.put(rotations, HEAD, local)
     quaternion.put(orientations, HEAD, quaternion.multiply(below, local))

@@ -30,12 +30,13 @@ from behaviours.sources import foot_goals, note_knees, source_pose
 from engine.body.kinematics import joints_into
 from engine.body.limb_ik import apply_leg, leg_swivel
 from engine.body.limits import clamp_keeping, components, from_components
-from engine.body.skeleton import HIPS, JOINT_COUNT, KNEES, PELVIS
+from engine.body.skeleton import ANKLES, HIPS, JOINT_COUNT, KNEES, PELVIS
 from engine.core.schedule import Stage, system
 from engine.maths import quaternion, vector
 from engine.maths.inner_kernel import inner_kernel
 
 BELONGINGS = (Ragdoll, Blow, Residual, Blend, Feet, Sustained, Playback)  # what a pose is made from
+OLD_SHARE = 0.5  # of the residual's half-life: how long what the old motion had beyond a limit is let be
 KNEE_PLAY_RAD = 0.05  # what a knee gives beyond its limits, so that one that is straight anyway does not catch
 
 
@@ -71,16 +72,32 @@ def keep_joints(body, source, offsets, elapsed_s, half_life_s, rotations):
     `offsets` (J, 3) are the residual's there.
     """
     for j in range(HIPS[0]):
-        if j == PELVIS:
-            continue
-        old = turned_by(source[j], remaining(vector.at(offsets, j), (0.0, 0.0, 0.0), elapsed_s, half_life_s))
-        a, b, c = components(source[j]), components(old), components(rotations[j])
-        low, high = vector.at(body.limit_low_rad, j), vector.at(body.limit_high_rad, j)
-        x = drawn_in(low[0], high[0], a[0], b[0], c[0])
-        y = drawn_in(low[1], high[1], a[1], b[1], c[1])
-        z = drawn_in(low[2], high[2], a[2], b[2], c[2])
-        if x != c[0] or y != c[1] or z != c[2]:
-            quaternion.put(rotations, j, from_components(x, y, z))
+        if j != PELVIS:
+            keep_joint(body, j, source, offsets, elapsed_s, half_life_s, 1.0, rotations)
+
+
+@njit(cache=True)
+def keep_swinging_legs(body, source, offsets, bears, elapsed_s, half_life_s, rotations):
+    """Likewise hips and ankles, in so far as their foot bears nothing: one in the air may be where the leg goes. In
+    place.
+    """
+    for side in range(2):
+        if bears[side] < 1.0:
+            for j in (HIPS[side], ANKLES[side]):
+                keep_joint(body, j, source, offsets, elapsed_s, half_life_s, 1.0 - bears[side], rotations)
+
+
+@inner_kernel
+def keep_joint(body, j, source, offsets, elapsed_s, half_life_s, share, rotations):
+    """One joint of those, drawn in by a share of what is too much. In place."""
+    old = turned_by(source[j], remaining(vector.at(offsets, j), (0.0, 0.0, 0.0), elapsed_s, OLD_SHARE * half_life_s))
+    a, b, c = components(source[j]), components(old), components(rotations[j])
+    low, high = vector.at(body.limit_low_rad, j), vector.at(body.limit_high_rad, j)
+    x = c[0] + share * (drawn_in(low[0], high[0], a[0], b[0], c[0]) - c[0])
+    y = c[1] + share * (drawn_in(low[1], high[1], a[1], b[1], c[1]) - c[1])
+    z = c[2] + share * (drawn_in(low[2], high[2], a[2], b[2], c[2]) - c[2])
+    if x != c[0] or y != c[1] or z != c[2]:
+        quaternion.put(rotations, j, from_components(x, y, z))
 
 
 @inner_kernel
@@ -173,6 +190,7 @@ def settled_pose(world, row: int, tick: float) -> tuple[np.ndarray, np.ndarray]:
     keep_knees(body, unaltered, source.rotations)
     goals_with_residual(goals.ankle_m, goals.turned, r.ankles[row], r.ankle_turns[row], elapsed_s, half_life_s)
     stand_on(body, source.root_m, source.rotations, goals.ankle_m, goals.turned, goals.bears, own_lengths)
+    keep_swinging_legs(body, unaltered, r.joints[row, 0], goals.bears, elapsed_s, half_life_s, source.rotations)
     return source.root_m, source.rotations
 
 

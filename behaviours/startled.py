@@ -12,22 +12,29 @@ import numpy as np
 
 from behaviours.overlap import overlaps_m
 from engine.body.limits import excess_rad
-from engine.body.skeleton import CLAVICLES, ELBOWS, HIPS, SHOULDERS, WRISTS, Body, Pose
+from engine.body.skeleton import CLAVICLES, ELBOWS, HIPS, JOINT_COUNT, PELVIS, SHOULDERS, WRISTS, Body, Pose
 from engine.maths import quaternion
 
 SHARES = np.linspace(1.0, 0.0, 6)
 TOLERATED_RAD, TOLERATED_M = 0.005, 0.002
+BELOW = (PELVIS, *range(HIPS[0], JOINT_COUNT))  # pelvis and legs
 ARMS = (*CLAVICLES, *SHOULDERS, *ELBOWS, *WRISTS)
 
 
 def within_reach(body: Body, now: Pose, ahead: Pose, startled: Pose, stand: Callable[[Pose], Pose]) -> Pose:
     """The startle pose, stood on the feet by `stand`: the largest share of its recoil at which no arm goes deeper into
     the body than now or in the clip ahead, and of its pelvis's way at which the legs go no farther beyond their limits.
+
+    The pelvis turns, and the legs begin, by the same share from how they are now: where nothing of it can be stood in,
+    the feet stay under a pelvis that neither moves nor turns.
     """
     own = np.maximum(excess_rad(body, now.rotations), excess_rad(body, ahead.rotations))[HIPS[0] :]
     pose = clear_of_body(body, now, ahead, startled)
     for share in SHARES:
-        stood = stand(Pose(now.root_m + share * (pose.root_m - now.root_m), pose.rotations.copy()))
+        part = Pose(now.root_m + share * (pose.root_m - now.root_m), pose.rotations.copy())
+        for joint in BELOW:
+            part.rotations[joint] = quaternion.slerp(now.rotations[joint], pose.rotations[joint], share)
+        stood = stand(part)
         if (excess_rad(body, stood.rotations)[HIPS[0] :] - own).max() < TOLERATED_RAD:
             break
     return stood

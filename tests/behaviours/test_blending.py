@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 from numba import njit
 
+from behaviours.arm_ways import BEYOND_RAD
 from behaviours.blending import primary_support
 from behaviours.held_feet import Knees, reachable, swivel_at
 from behaviours.measures import distance_from_line
@@ -15,7 +16,7 @@ from engine.body.limits import excess_rad
 from engine.body.skeleton import ANKLES, BACK, HEAD, HIPS, KNEES, NECK, PELVIS, WAIST, WRISTS, Pose
 from engine.clips.mirror import mirror_pose
 from engine.maths import quaternion
-from tests.behaviours.blends import between, components_to_rotation, end_of, held, on_guard
+from tests.behaviours.blends import at_ease, between, components_to_rotation, end_of, held, on_guard
 from tests.behaviours.people import BODY, coming, met, standing
 
 WEIGHTS = np.linspace(0.0, 1.0, 21)
@@ -146,6 +147,21 @@ def test_the_ends_rule_goes_from_end_to_end():
     )
     assert left == pytest.approx(0.3)
     assert abs(right) == pytest.approx(np.pi)  # the shorter way round
+
+
+def test_a_leg_in_the_air_stays_behind_its_plan_where_the_hip_would_not_go():
+    """A foot far behind the body: the hip stops at its limit if the foot bears nothing, the sole as it was to be."""
+    plan = held(at_ease())
+    behind = plan.ankle_m + np.array([[-0.6, 0.0, 0.25], [0.0, 0.0, 0.0]])
+
+    def over_rad(bears: float) -> float:
+        goals = plan._replace(ankle_m=behind, bears=np.array([bears, 1.0]))
+        pose = between(at_ease(), on_guard(), 0.5, goals=goals, support=1)
+        return float(excess_rad(BODY, pose.rotations)[HIPS[0]])
+
+    own = float(excess_rad(BODY, at_ease().rotations)[HIPS[0]])
+    assert over_rad(1.0) > own + 0.1
+    assert over_rad(0.0) < own + BEYOND_RAD
 
 
 def test_a_foot_that_bears_is_never_left_behind_and_one_in_the_air_softly():

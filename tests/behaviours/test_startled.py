@@ -8,6 +8,7 @@ from behaviours.overlap import overlaps_m
 from behaviours.startled import SHARES, within_reach
 from engine.body.limits import excess_rad
 from engine.body.skeleton import HIPS, Pose
+from engine.maths import quaternion
 from tests.behaviours.blends import at_ease, between, held, on_guard, with_arm
 from tests.behaviours.people import BODY
 
@@ -38,6 +39,16 @@ def test_the_pelvis_goes_only_as_far_as_the_hips_let_it():
     found = within_reach(BODY, at_ease(), startled, startled, stand)
     assert excess_rad(BODY, found.rotations).max() < 0.006
     assert 0.0 < found.root_m[0] - at_ease().root_m[0] < 0.7
+
+
+def test_the_pelvis_turns_only_as_far_as_standing_feet_let_it():
+    """Somebody who turns fast has a pelvis, a moment ahead, that the feet do not yet go with."""
+    startled = at_ease()
+    startled.rotations[0] = quaternion.about_z(np.radians(100.0))
+    assert excess_rad(BODY, stand(startled).rotations).max() > 0.1  # what it is there for
+    found = within_reach(BODY, at_ease(), startled, startled, stand)
+    assert excess_rad(BODY, found.rotations).max() < 0.006
+    assert 0.0 < quaternion.heading(found.rotations[0]) < np.radians(99.0)
 
 
 def test_arms_recoil_only_so_far_as_is_free():
