@@ -52,8 +52,10 @@ def guarded(work: Callable[[], int | None]) -> int:
     """Does the work and returns its exit code; every failure becomes one line and the code that stands for it."""
     _prepare_process()
     try:
-        code = work()
-        sys.stdout.flush()  # a reader that went away is noticed here, not at interpreter exit
+        try:
+            code = work()
+        finally:  # also after --help, which leaves by SystemExit
+            sys.stdout.flush()  # a reader that went away is noticed here, not at interpreter exit
         return EXIT_GOOD if code is None else code
     except BraceError as trouble:
         print(trouble.line(), file=sys.stderr)

@@ -1,4 +1,7 @@
-"""Fig. 3.8: the elbow's swivel angle about shoulder - wrist, from the shoulder's down (dashed)."""
+"""Fig. 3.8: the elbow's swivel angle about shoulder - wrist, from the shoulder's down (dashed).
+
+Drawn is the angle that the arm has: what the rule asks for, as far as shoulder and wrist have room for it.
+"""
 
 from __future__ import annotations
 
@@ -6,6 +9,8 @@ import math
 
 import numpy as np
 
+from behaviours.rules.block import swivel_rad
+from behaviours.settings import Settings
 from demos.figures.meeting import meet, posed
 from demos.figures.press import Press
 from demos.figures.sheet import BODY, SMALL, Sheet, number
@@ -17,7 +22,8 @@ from engine.maths import vector
 from engine.render.scene import RULES_YELLOW, Scene
 
 SIZES = (0.0, 1.0)
-WIDTH, GAP, BAND = 330, 40, 40
+WIDTH, GAP, BAND = 330, 40, 58
+BLOCK = Settings().block
 ASIDE_DEG = -34.0  # the photographer stands this far from the line shoulder - wrist, to tell the two apart
 ACCENT = "#b3261e"
 
@@ -37,6 +43,9 @@ def draw(press: Press) -> Sheet:
         _angle(sheet, still, corner, m)
         words = "small threat: reach out" if size == 0 else "large threat: stay small"
         sheet.text(corner[0] + 0.5 * WIDTH, height + 10, words, BODY, align="center")
+        asked_deg = math.degrees(swivel_rad(size, BLOCK.swivel_small_rad, BLOCK.swivel_large_rad))
+        under = f"the rule asks for {number(asked_deg, 0)}°"
+        sheet.text(corner[0] + 0.5 * WIDTH, height + 32, under, SMALL, align="center")
     return sheet
 
 
