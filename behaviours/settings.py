@@ -2,17 +2,13 @@
 
 The numbers are those of Hermens, *Anticipating Impacts* (2006); a section like 3.2.5 or a table is the thesis's, one
 like A4 is the project's specification, which settles what the thesis leaves open. A group is a NamedTuple of plain
-numbers, so that a kernel takes it whole. Radians inside; `override` also takes degrees, by the name with `_deg`:
-
-    settings = override(Settings(), {"block.reach_far_m": 0.8, "lean_turn.neck_deg": [50, 50, 65]})
+numbers, so that a kernel takes it whole. Radians inside; `behaviours.overriding` changes constants by name.
 """
 
 from __future__ import annotations
 
-from math import pi, radians
+from math import radians
 from typing import Annotated, Any, NamedTuple, get_type_hints
-
-from engine.core.errors import BadInput
 
 
 class Constant(NamedTuple):
@@ -309,7 +305,7 @@ class Search(NamedTuple):
 
 
 class Settings(NamedTuple):
-    """All of it. Immutable: `override` gives a changed copy."""
+    """All of it. Immutable: `behaviours.overriding.override` gives a changed copy."""
 
     lean_turn: LeanTurn = LeanTurn()
     recoil: Recoil = Recoil()
@@ -348,58 +344,3 @@ def constants() -> dict[str, Constant]:
         for field in group._fields:
             table[f"{group_name}.{field}"] = hints[field].__metadata__[0]
     return table
-
-
-def override(settings: Settings, changes: dict[str, Any]) -> Settings:
-    """A copy with some constants replaced, by dotted name. Angles also by `..._deg`. BadInput names what is wrong.
-
-    Values keep the type of the default (a kernel compiled for a float never meets an int).
-    """
-    for name, value in changes.items():
-        group_name, _, field = name.partition(".")
-        group = getattr(settings, group_name, None) if group_name in Settings._fields else None
-        in_degrees = field.endswith("_deg")
-        if in_degrees:
-            field = field.removesuffix("_deg") + "_rad"
-        if group is None or field not in group._fields:
-            raise BadInput("setting", f"unknown setting {name!r}; expected {_nearest(name)}")
-        settings = settings._replace(
-            **{group_name: group._replace(**{field: _as_default(name, value, getattr(group, field), in_degrees)})}
-        )
-    return settings
-
-
-def _as_default(name: str, value: Any, default: Any, in_degrees: bool) -> Any:
-    """The value in the default's own type, degrees turned into radians."""
-    scale = pi / 180.0 if in_degrees else 1.0
-    try:
-        if isinstance(default, tuple):
-            if len(value) != len(default):
-                raise ValueError
-            return tuple(float(v) * scale for v in value)
-        if isinstance(default, bool):
-            if not isinstance(value, bool):
-                raise ValueError
-            return value
-        if isinstance(default, str):
-            if value not in CHOICES[name]:
-                raise BadInput("setting", f"{name} is {value!r}; expected {' | '.join(CHOICES[name])}")
-            return str(value)
-        if isinstance(value, bool) or float(value) != float(value):
-            raise ValueError
-        if isinstance(default, int):
-            if int(value) != float(value):
-                raise ValueError
-            return int(value)
-        return float(value) * scale
-    except (TypeError, ValueError):
-        wanted = f"{len(default)} numbers" if isinstance(default, tuple) else type(default).__name__
-        raise BadInput("setting", f"{name} is {value!r}; expected {wanted}") from None
-
-
-def _nearest(name: str) -> str:
-    """The few names most like a misspelt one."""
-    from difflib import get_close_matches
-
-    near = get_close_matches(name, list(constants()), n=3, cutoff=0.5)
-    return " or ".join(near) if near else f"one of the groups {', '.join(Settings._fields)}"

@@ -33,6 +33,7 @@ from behaviours.going_on import go_on
 from behaviours.launching import launch_threats, threaten, throw
 from behaviours.library import FindClip, gather_libraries
 from behaviours.observing import Observer
+from behaviours.overriding import override
 from behaviours.placing import placed
 from behaviours.reaction import advance_reactions, notice
 from behaviours.report import report_of
@@ -40,7 +41,7 @@ from behaviours.response import meet_balls, step_bodies
 from behaviours.scenario import CharacterSpec, Scenario, ThreatSpec, check_threat
 from behaviours.search import Library
 from behaviours.senses import watch_free_threats
-from behaviours.settings import Settings, override
+from behaviours.settings import Settings
 from behaviours.settling import settle_poses
 from behaviours.stance.shape import mix, shape
 from behaviours.threats import make_threat

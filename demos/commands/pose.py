@@ -74,10 +74,11 @@ def _check_output(output: str | None) -> None:
 
 def _wanted(args: argparse.Namespace):
     """The case and the settings that the arguments ask for; BadInput where they make no sense."""
+    from behaviours.overriding import override
     from behaviours.perceived import AIMS
     from behaviours.pose_report import PoseCase
     from behaviours.scenario import check_scenario
-    from behaviours.settings import Settings, override
+    from behaviours.settings import Settings
     from demos.cli import nearest
     from engine.core.errors import BadInput
 

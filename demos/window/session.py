@@ -21,6 +21,7 @@ from behaviours.scenario import CharacterSpec, Scenario, check_scenario
 from behaviours.simulation import flat_settings
 from demos.stage import pelvis_m
 from demos.window.phases import WORDS
+from demos.window.rehearsal import Rehearsal
 from demos.window.run import ClipBox, Inputs, Run
 from demos.window.slow_motion import SlowMotion
 from demos.window.threat_draft import ThreatDraft, draft_of
@@ -36,8 +37,6 @@ from engine.render.camera import Camera, ray_through
 
 RATES = (0.05, 0.1, 0.25, 0.5, 1.0, 2.0)
 TICKS_BUDGET_S = 0.025  # a frame spends at most this on ticks: what does not fit slows the show down, not the window
-REHEARSED_TICKS = 200
-FIRST_FRAMES = 3  # are shown before anything is rehearsed
 RERUN_BUDGET_S = 0.020  # and this on running a changed scenario
 
 
@@ -68,8 +67,7 @@ class Session:
         self.asked: list[str] = []  # what only the window can do: screenshot, film, scenario, recording
         self._dice = random.Random(scenario.seed)
         self._next_fire = 0
-        self._rehearsal: Run | None = None
-        self._rehearse, self._frames = REHEARSED_TICKS, 0
+        self._rehearsal = Rehearsal()
         self._wanted: tuple[Scenario, Inputs] | None = None
         self._rerun: Run | None = None
 
@@ -164,7 +162,7 @@ class Session:
             self._fire()
             self.run.advance()
         self._run_again()
-        self._rehearse_some()
+        self._rehearsal.go_on(self._rehearsed, self._stopwatch)
 
     def pause(self) -> None:
         self.clock.paused = not self.clock.paused
@@ -314,22 +312,10 @@ class Session:
         tick, self.run, self._rerun = self.tick, self._rerun, None
         self.run.seek(tick)
 
-    def _rehearse_some(self) -> None:
-        """A few ticks of a reaction that nobody sees, in the first frames: what it needs of compiled code is loaded
-        then, and not in the middle of the first real one.
-        """
-        self._frames += 1
-        if self._rehearse <= 0 or self._frames <= FIRST_FRAMES:
-            return
-        if self._rehearsal is None:
-            inputs = {0: [{"do": "threaten", "threat": self.threat.spec(self.selected)}]}
-            self._rehearsal = Run(self.run.scenario, self.find, self.folder, inputs)
-        begun_s = self._stopwatch()
-        while self._rehearse > 0 and self._stopwatch() - begun_s < RERUN_BUDGET_S:
-            self._rehearsal.advance()
-            self._rehearse -= 1
-        if self._rehearse <= 0:
-            self._rehearsal = None
+    def _rehearsed(self) -> Run:
+        """The run of the threat that the panel describes, beside the one that is shown."""
+        inputs: Inputs = {0: [{"do": "threaten", "threat": self.threat.spec(self.selected)}]}
+        return Run(self.run.scenario, self.find, self.folder, inputs)
 
     def _finish(self) -> None:
         """Whatever was changed is shown before anything else comes in."""

@@ -4,7 +4,8 @@ import math
 
 import pytest
 
-from behaviours.settings import CHOICES, Settings, constants, override
+from behaviours.overriding import override
+from behaviours.settings import CHOICES, Settings, constants
 from engine.core.errors import BadInput
 
 

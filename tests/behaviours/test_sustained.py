@@ -10,9 +10,10 @@ import pytest
 from scipy.optimize import minimize as scipy_minimize
 
 from behaviours.balance_search import solve, solve_by_least_squares
+from behaviours.overriding import override
 from behaviours.pose_report import PoseCase, pose_case
 from behaviours.rules.controls import CONTROL_COUNT
-from behaviours.settings import Settings, override
+from behaviours.settings import Settings
 from behaviours.solve_pose import solve_bfgs
 from behaviours.sustained import Case, case_of
 from behaviours.task import new_posed

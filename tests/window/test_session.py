@@ -136,18 +136,18 @@ def test_another_clip_begins_afresh_and_a_missing_one_changes_nothing(session):
 def test_the_rehearsal_is_not_seen(tmp_path):
     raw = {"threat": [THREAT]}
     alone = session_of(raw, tmp_path)
-    alone._rehearse = 0
+    alone._rehearsal.left = 0
     seen = session_of(raw, tmp_path)
     for session in (alone, seen):
         pass_time(session, 40)
-    assert seen._rehearsal is None
+    assert seen._rehearsal.left == 0
     assert alone.world.digest() == seen.world.digest()
 
 
 def test_ticks_that_do_not_fit_into_a_frame_slow_the_show_and_not_the_window(tmp_path):
     now_s = iter(np.arange(0.0, 1e4, 0.010))  # every look at the watch is ten milliseconds later: a slow machine
     session = Session(check_scenario({"character": [{"clip": "sway"}]}), tmp_path, tmp_path, lambda: float(next(now_s)))
-    session._rehearse = 0
+    session._rehearsal.left = 0
     session.advance(0.2)
     assert 1 <= session.tick <= 4  # of 24 that were due
     assert session.clock.dropped_s > 0.15

@@ -1,0 +1,66 @@
+"""Constants changed by name, as a scenario's `[settings]`, `--set` and the window's sliders do.
+
+settings = override(Settings(), {"block.reach_far_m": 0.8, "lean_turn.neck_deg": [50, 50, 65]})
+"""
+
+from __future__ import annotations
+
+from difflib import get_close_matches
+from math import pi
+from typing import Any
+
+from behaviours.settings import CHOICES, Settings, constants
+from engine.core.errors import BadInput
+
+
+def override(settings: Settings, changes: dict[str, Any]) -> Settings:
+    """A copy with some constants replaced, by dotted name. Angles also by `..._deg`. BadInput names what is wrong.
+
+    Values keep the type of the default (a kernel compiled for a float never meets an int).
+    """
+    for name, value in changes.items():
+        group_name, _, field = name.partition(".")
+        group = getattr(settings, group_name, None) if group_name in Settings._fields else None
+        in_degrees = field.endswith("_deg")
+        if in_degrees:
+            field = field.removesuffix("_deg") + "_rad"
+        if group is None or field not in group._fields:
+            raise BadInput("setting", f"unknown setting {name!r}; expected {_nearest(name)}")
+        settings = settings._replace(
+            **{group_name: group._replace(**{field: _as_default(name, value, getattr(group, field), in_degrees)})}
+        )
+    return settings
+
+
+def _as_default(name: str, value: Any, default: Any, in_degrees: bool) -> Any:
+    """The value in the default's own type, degrees turned into radians."""
+    scale = pi / 180.0 if in_degrees else 1.0
+    try:
+        if isinstance(default, tuple):
+            if len(value) != len(default):
+                raise ValueError
+            return tuple(float(v) * scale for v in value)
+        if isinstance(default, bool):
+            if not isinstance(value, bool):
+                raise ValueError
+            return value
+        if isinstance(default, str):
+            if value not in CHOICES[name]:
+                raise BadInput("setting", f"{name} is {value!r}; expected {' | '.join(CHOICES[name])}")
+            return str(value)
+        if isinstance(value, bool) or float(value) != float(value):
+            raise ValueError
+        if isinstance(default, int):
+            if int(value) != float(value):
+                raise ValueError
+            return int(value)
+        return float(value) * scale
+    except (TypeError, ValueError):
+        wanted = f"{len(default)} numbers" if isinstance(default, tuple) else type(default).__name__
+        raise BadInput("setting", f"{name} is {value!r}; expected {wanted}") from None
+
+
+def _nearest(name: str) -> str:
+    """The few names most like a misspelt one."""
+    near = get_close_matches(name, list(constants()), n=3, cutoff=0.5)
+    return " or ".join(near) if near else f"one of the groups {', '.join(Settings._fields)}"
