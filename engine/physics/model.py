@@ -22,7 +22,7 @@ from engine.body.skeleton import JOINT_COUNT, JOINTS, PARENT, SOLE_POINTS, Body
 from engine.core.errors import EnvironmentTrouble
 from engine.maths.ballistics import GRAVITY_MPS2
 from engine.physics.layout import STATE_SIZE
-from engine.physics.stops import PAIRS_BY_NAME, pairs_of
+from engine.physics.part_stops import PAIRS_BY_NAME, pairs_of
 
 # MuJoCo would write a log file wherever the user happens to be. What it warns of, a state that has left the numbers,
 # shows in the state itself, and the world stops at it by name.

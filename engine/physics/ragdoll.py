@@ -15,7 +15,7 @@ import numpy as np
 from engine.body.skeleton import JOINT_COUNT, PARENT, Pose
 from engine.maths import rotations
 from engine.maths.springs import half_sine
-from engine.physics import stops, tracking
+from engine.physics import part_stops, stops, tracking
 from engine.physics.model import SUB_STEPS_HZ, RagdollModel
 
 _KIND = mujoco.mjtState.mjSTATE_INTEGRATION
@@ -70,7 +70,7 @@ def step(
     h = dt_s / count
     m.opt.timestep = h
     body, target_rotations = model.body, np.ascontiguousarray(target.rotations, dtype=float)
-    stops.keep_own(model, target_rotations)
+    part_stops.keep_own(model, target_rotations)
     torque, armature = np.zeros(m.nv), np.zeros(m.nv)
     momentum = _momentum(model)
     for k in range(count):

@@ -12,8 +12,9 @@ from engine.body.capsules import CAPSULES, capsules_at
 from engine.body.skeleton import ELBOWS, HEAD, JOINT_COUNT, PARENT, SHOULDERS, WRISTS, Pose
 from engine.clips.mirror import mirror_pose
 from engine.maths import quaternion, vector
-from engine.physics import impact, ragdoll, stops
+from engine.physics import impact, limit_stops, part_stops, ragdoll, stops
 from engine.physics.impact import Push
+from engine.physics.rows import MOST_ROWS
 from tests.physics.standing import BODY, MODEL, SHAPES, TICK_S, kinetic_energy, momentum, standing
 
 NV = MODEL.mujoco_model.nv
@@ -29,7 +30,7 @@ def weightless(monkeypatch):
 def depths_m(state):
     """(P,) of all pairs that stop each other."""
     out = np.empty(len(MODEL.pairs))
-    stops.depths_into(PARENT, BODY.offset_m, ragdoll.pose_of(MODEL, state).rotations, SHAPES, MODEL.pairs, out)
+    part_stops.depths_into(PARENT, BODY.offset_m, ragdoll.pose_of(MODEL, state).rotations, SHAPES, MODEL.pairs, out)
     return out
 
 
@@ -88,7 +89,7 @@ def nearest(state, one, other):
     """The gap between two capsules and the way from the second to the first."""
     a, b = CAPSULES.index(one), CAPSULES.index(other)
     ends = capsules_at(SHAPES, *kinematics.joints_of(BODY, ragdoll.pose_of(MODEL, state)))
-    on_a, on_b, gap_m = stops._nearest(ends[a], ends[b], SHAPES.radius_m[a] + SHAPES.radius_m[b])
+    on_a, on_b, gap_m = part_stops.nearest(ends[a], ends[b], SHAPES.radius_m[a] + SHAPES.radius_m[b])
     return gap_m, np.array(vector.unit(np.subtract(on_a, on_b), (0.0, 0.0, 1.0)))
 
 
@@ -103,7 +104,7 @@ def test_a_hand_that_lies_on_the_face_gives_way_no_more_than_the_head(monkeypatc
     """What a ball meets there is hand and head in one, not a hand that is free to fly."""
     state = min(hands_thrown_at_the_face(), key=lambda state: nearest(state, "left_hand", "head")[0])
     gap_m, outwards = nearest(state, "left_hand", "head")
-    assert gap_m < stops.TOUCHING_M
+    assert gap_m < part_stops.TOUCHING_M
     hand = CAPSULES.index("left_hand")
     orientation = kinematics.joints_of(BODY, ragdoll.pose_of(MODEL, state))[1][WRISTS[0]]
     middle = 0.5 * (SHAPES.start_m[hand] + SHAPES.end_m[hand])
@@ -207,10 +208,10 @@ def test_a_row_is_how_the_gap_or_the_angle_changes_and_pushes_nobody_about():
     pose = inside_limits(rng)
     qpos = ragdoll.state_of(MODEL, pose, np.zeros(NV))[MODEL.positions]
     qvel = rng.normal(size=NV) * 30.0
-    rows, least = np.zeros((stops.MOST_ROWS, NV)), np.empty(stops.MOST_ROWS)
+    rows, least = np.zeros((MOST_ROWS, NV)), np.empty(MOST_ROWS)
     count = stops.find(
         PARENT, BODY.offset_m, BODY.limit_low_rad, BODY.limit_high_rad, pose.rotations, SHAPES, MODEL.pairs,
-        qpos, qvel, stops.EASE_S, 0.0, stops.FARTHEST_M, stops.NEAR_RAD, rows, least,
+        qpos, qvel, stops.EASE_S, 0.0, part_stops.FARTHEST_M, limit_stops.NEAR_RAD, rows, least,
     )  # fmt: skip
     assert count > 5
     moved = qpos.copy()
@@ -219,7 +220,9 @@ def test_a_row_is_how_the_gap_or_the_angle_changes_and_pushes_nobody_about():
 
     def lengths(q):
         ends = capsules_at(SHAPES, *kinematics.joints_of(BODY, Pose(q[:3], q[3:].reshape(-1, 4))))
-        gaps = [stops._nearest(ends[a], ends[b], SHAPES.radius_m[a] + SHAPES.radius_m[b])[2] for a, b in MODEL.pairs]
+        gaps = [
+            part_stops.nearest(ends[a], ends[b], SHAPES.radius_m[a] + SHAPES.radius_m[b])[2] for a, b in MODEL.pairs
+        ]
         angles = [limits.components(r) for r in q[3:].reshape(-1, 4)]
         return np.concatenate([gaps, np.ravel(angles)])
 
