@@ -42,9 +42,7 @@ def turn_joint(rotations, orientations, parent, joint, world_turn):
     """Turns a joint about a world axis: its local rotation, as its parent stands. In place."""
     outer = quaternion.at(orientations, parent)
     seen = quaternion.multiply(quaternion.multiply(quaternion.conjugate(outer), world_turn), outer)
-    quaternion.put(
-        rotations, joint, quaternion.normalise(quaternion.multiply(seen, quaternion.at(rotations, joint)))
-    )
+    quaternion.put(rotations, joint, quaternion.normalise(quaternion.multiply(seen, quaternion.at(rotations, joint))))
 
 
 @inner_kernel

@@ -127,6 +127,4 @@ def term_errors(residuals: np.ndarray) -> dict[str, float]:
     """Each term as a plain distance: metres; for the torso the root sum of squares of sin(angle / 2); for
     controls 0 ... 1.
     """
-    return {
-        term: float(np.sqrt(np.sum(residuals[BEGIN[i] : BEGIN[i + 1]] ** 2))) for i, term in enumerate(TERMS)
-    }
+    return {term: float(np.sqrt(np.sum(residuals[BEGIN[i] : BEGIN[i + 1]] ** 2))) for i, term in enumerate(TERMS)}

@@ -17,9 +17,12 @@ def add_scenario(parser: argparse.ArgumentParser, default: str | None = None) ->
     )  # fmt: skip
 
 
-def add_filming(parser: argparse.ArgumentParser, size: str = "1280x720") -> None:
-    """How pictures are made of a run."""
-    parser.add_argument("--size", default=size, metavar="WxH", help=f"pixels of a picture ({size})")
+def add_filming(parser: argparse.ArgumentParser, size: str = "1280x720", sizes: str = "") -> None:
+    """How pictures are made of a run.
+
+    sizes: what the help says of the size where it depends on what is made.
+    """
+    parser.add_argument("--size", default=size, metavar="WxH", help=f"pixels of a picture ({sizes or size})")
     parser.add_argument("--fps", type=float, default=30.0, metavar="N", help="frames a second (30)")
     parser.add_argument(
         "--camera", default="quarter", metavar="WHERE",

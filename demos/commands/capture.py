@@ -10,6 +10,7 @@ from demos.output import say
 from engine.core.errors import BadInput
 
 STRIP_FRAMES = 8
+STRIP_COLUMNS = 8  # a row of more is too wide to be looked at
 STRIP_SIZE = "400x540"
 
 
@@ -23,7 +24,7 @@ def register(subparsers) -> None:
     add_scenario(parser)
     parser.add_argument("-o", "--output", required=True, metavar="OUT", help="x.mp4, x.gif, x.png (strip) or a folder")
     parser.add_argument("--frames", type=int, metavar="N", help=f"pictures in a filmstrip ({STRIP_FRAMES})")
-    parser.add_argument("--columns", type=int, metavar="N", help="pictures in a row of a filmstrip (all of them)")
+    parser.add_argument("--columns", type=int, metavar="N", help=f"pictures in its row (at most {STRIP_COLUMNS})")
     parser.add_argument("--from", type=float, dest="from_s", metavar="S", help="only from this second on")
     parser.add_argument("--to", type=float, dest="to_s", metavar="S", help="only up to this second")
     parser.add_argument("--slow", action="store_true", help="slow motion just before and after each blow")
@@ -34,7 +35,7 @@ def register(subparsers) -> None:
     parser.add_argument(
         "--tracks", metavar="FILE.npz", help="beside a film: joints and balls, in space and on the pictures"
     )
-    add_filming(parser, size="")
+    add_filming(parser, size="", sizes=f"a film 1280x720, a strip {STRIP_SIZE}")
     parser.set_defaults(run=run)
 
 
@@ -97,4 +98,12 @@ def write_strip(renderer, output, simulation, shot, frames=None, columns=None, f
     seen = list(moments(simulation.world, simulation.step, simulation.ticks, shot._replace(fps=120.0)))
     chosen = choose(seen, frames or STRIP_FRAMES, from_s, to_s)
     captions = [f"{now.time_s:.2f} s\n{now.phase.replace('_', ' ')}" for now in chosen]
-    write_filmstrip(output, strip_pictures(renderer, chosen, shot), captions, columns=columns)
+    write_filmstrip(
+        output, strip_pictures(renderer, chosen, shot), captions, columns=columns or columns_for(len(chosen))
+    )
+
+
+def columns_for(frames: int) -> int:
+    """How many pictures a row of a filmstrip has: at most STRIP_COLUMNS, and about as many in each row."""
+    rows = -(-frames // STRIP_COLUMNS)
+    return -(-frames // rows)

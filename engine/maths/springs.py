@@ -61,9 +61,7 @@ def critical3(value, velocity, goal, half_life_s, dt_s):
 @njit(cache=True)
 def decaying_rotation(offset, angular_velocity, half_life_s, dt_s):
     """What is left of a rotation offset (unit quaternion) and its angular velocity (rotation vector per second)."""
-    r, w = critical3(
-        quaternion.to_rotation_vector(offset), angular_velocity, (0.0, 0.0, 0.0), half_life_s, dt_s
-    )
+    r, w = critical3(quaternion.to_rotation_vector(offset), angular_velocity, (0.0, 0.0, 0.0), half_life_s, dt_s)
     return quaternion.from_rotation_vector(r), w
 
 

@@ -6,6 +6,7 @@ from PIL import Image
 
 from behaviours.scenario import parse_scenario
 from demos.cli import main
+from demos.commands.capture import columns_for
 from demos.filming import CAMERAS, Moment, Shot, choose, parse_camera, parse_ghosts, parse_size, placed_for
 from demos.frames import frames_of, slowed_frames_of
 from demos.stage import floor_under
@@ -133,6 +134,11 @@ def test_the_moments_of_a_strip():
     assert 30 / 16 in times  # the first moment of the blow
     assert [now.time_s for now in choose(seen, 3, 0.0, 0.25)] == [0.0, 0.125, 0.25]
     assert len(choose(seen, 500, None, None)) == 45
+
+
+@pytest.mark.parametrize(("frames", "columns"), [(1, 1), (8, 8), (9, 5), (16, 8), (17, 6)])
+def test_rows_of_a_strip_are_short_and_alike(frames, columns):
+    assert columns_for(frames) == columns
 
 
 def test_who_walks_out_of_the_hall_walks_on_plain_ground():
