@@ -90,6 +90,7 @@ def _window(args: argparse.Namespace) -> None:
         setattr(play.session.view, f"ghost_{name}", True)
     play.floor = FloorStyle(shot.floor)
     with make_context(headless=False, size=shot.size_px, title=f"Brace: {args.scenario}") as context:
+        context.when_lost = play.keeper.close
         renderer, layer = Renderer(context, quality), PanelLayer(play, args.scale)
         hands = CameraHands(orbit_camera(play.session.centre_m(), *shot.camera))
         governor = Governor() if args.quality == "auto" else None

@@ -4,11 +4,13 @@
         renderer = Renderer(context)
 
 Both have: `gl` (the moderngl context), `size_px` (the framebuffer, 0 x 0 while minimised), `scale` (framebuffer pixels
-per window unit), `poll() -> list[Event]`, `present(framebuffer)`, `closing`, `set_title(text)`, `close()`.
+per window unit), `poll() -> list[Event]`, `present(framebuffer)`, `closing`, `set_title(text)`, `close()`; and
+`when_lost`, called where the display goes away, before the process ends.
 """
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import Any, Protocol
 
 import moderngl
@@ -24,6 +26,7 @@ class Context(Protocol):
     """What `make_context` gives back, with or without a screen."""
 
     gl: moderngl.Context
+    when_lost: Callable[[], None]
 
     @property
     def size_px(self) -> tuple[int, int]: ...
@@ -59,6 +62,7 @@ class Offscreen:
         self.size_px = (int(size[0]), int(size[1]))
         self.scale = 1.0
         self.closing = False
+        self.when_lost: Callable[[], None] = lambda: None
         self._waiting: list[Event] = []
 
     def push(self, *events: Event) -> None:

@@ -6,6 +6,7 @@ import ctypes
 import os
 import sys
 import time
+from collections.abc import Callable
 from typing import Any
 
 import glfw
@@ -37,7 +38,8 @@ class Window:
     def __init__(self, size: tuple[int, int], title: str):
         self._handle = _open(size, title)
         self._waiting: list[ev.Event] = []
-        _watch_display()
+        self.when_lost: Callable[[], None] = lambda: None
+        _watch_display(self)
         self._last_press: tuple[float, int, float, float] = (-1.0, -1, 0.0, 0.0)
         try:
             glfw.make_context_current(self._handle)
@@ -144,22 +146,26 @@ class Window:
         return (x * pixels[0] / max(window[0], 1), y * pixels[1] / max(window[1], 1))
 
 
-def _watch_display() -> None:
+def _watch_display(window: Window) -> None:
     """Where the X server goes away the process ends in one line and the code for it: Xlib would end it anyway, and its
-    connection, and with it the GL context, can no longer be used for anything. Does nothing without X11.
+    connection, and with it the GL context, can no longer be used for anything. What needs neither is done before, by
+    the window's `when_lost`. Does nothing without X11.
     """
+
+    def end(_) -> int:
+        try:
+            window.when_lost()
+        finally:  # nothing may go back into Xlib
+            trouble = EnvironmentTrouble("display-lost", "the display has gone away, and the window with it")
+            print(trouble.line(), file=sys.stderr, flush=True)
+            os._exit(trouble.exit_code)
+
     try:
-        ended = ctypes.CFUNCTYPE(ctypes.c_int, ctypes.c_void_p)(_end_without_display)
+        ended = ctypes.CFUNCTYPE(ctypes.c_int, ctypes.c_void_p)(end)
         ctypes.CDLL("libX11.so.6").XSetIOErrorHandler(ended)
     except (OSError, AttributeError):
         return
     _kept_for_xlib.append(ended)
-
-
-def _end_without_display(_) -> int:
-    trouble = EnvironmentTrouble("display-lost", "the display has gone away, and the window with it")
-    print(trouble.line(), file=sys.stderr, flush=True)
-    os._exit(trouble.exit_code)
 
 
 _kept_for_xlib: list[Any] = []  # callbacks that C may call for as long as the process lives

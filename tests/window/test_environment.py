@@ -3,12 +3,15 @@
 from __future__ import annotations
 
 import json
+import shutil
 import subprocess
 import sys
+import time
 
 import numpy as np
 import pytest
 
+from engine.render.capture import count_frames
 from tests.window.desk import PATIENCE_S, ROOT, SCREEN, Desk, needs_display
 
 pytestmark = needs_display
@@ -45,6 +48,18 @@ def test_a_display_that_goes_away_ends_it_in_order(desk):
     program = desk.start(*SMALL)
     desk.server.terminate()
     assert "the display has gone away" in one_line(program)
+
+
+@pytest.mark.skipif(shutil.which("ffmpeg") is None, reason="needs ffmpeg")
+def test_a_display_that_goes_away_while_filming_leaves_the_film_so_far(desk):
+    program = desk.start(*SMALL)
+    desk.key("r")
+    desk.file(".film-1.*.part.mp4")
+    time.sleep(0.5)
+    desk.server.terminate()
+    assert "the display has gone away" in one_line(program)
+    assert [path.name for path in desk.folder.iterdir() if path.is_file()] == ["film-1.mp4"]
+    assert count_frames(desk.folder / "film-1.mp4") > 0
 
 
 def test_a_high_dpi_screen_is_seen(tmp_path):
