@@ -10,7 +10,9 @@ import argparse
 import difflib
 import importlib
 import os
+import signal
 import sys
+import threading
 import traceback
 from collections.abc import Callable
 from typing import NoReturn
@@ -60,8 +62,8 @@ def guarded(work: Callable[[], int | None]) -> int:
     except BraceError as trouble:
         print(trouble.line(), file=sys.stderr)
         return trouble.exit_code
-    except KeyboardInterrupt:
-        return EXIT_INTERRUPTED
+    except KeyboardInterrupt as stop:
+        return 128 + stop.args[0] if stop.args else EXIT_INTERRUPTED
     except BrokenPipeError:
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
         return EXIT_BROKEN_PIPE
@@ -93,6 +95,16 @@ def _prepare_process() -> None:
     for stream in (sys.stdout, sys.stderr):
         if hasattr(stream, "reconfigure"):
             stream.reconfigure(errors="backslashreplace")
+    # a log-out or a `kill` cleans up as Ctrl-C does: no half file, no ffmpeg or pip left behind
+    if threading.current_thread() is threading.main_thread():
+        for ending in (signal.SIGTERM, signal.SIGHUP):
+            if signal.getsignal(ending) is signal.SIG_DFL:
+                signal.signal(ending, _stop)
+
+
+def _stop(signum: int, frame: object) -> NoReturn:
+    signal.signal(signum, signal.SIG_DFL)  # who asks twice does not want to wait for the cleaning up
+    raise KeyboardInterrupt(signum)
 
 
 def _check_word(words: list[str]) -> None:

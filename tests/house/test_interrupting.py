@@ -20,8 +20,17 @@ def environment():
     return {**os.environ, "PYTHONPATH": str(ROOT)}
 
 
-@pytest.mark.parametrize("name", ["film.mp4", "film.gif", "film"])
-def test_stopped_in_the_middle_of_a_film_nothing_is_left(tmp_path, name):
+@pytest.mark.parametrize(
+    ("name", "ending", "code"),
+    [
+        ("film.mp4", signal.SIGINT, EXIT_INTERRUPTED),
+        ("film.gif", signal.SIGINT, EXIT_INTERRUPTED),
+        ("film", signal.SIGINT, EXIT_INTERRUPTED),
+        ("film.mp4", signal.SIGTERM, 143),
+        ("film", signal.SIGTERM, 143),
+    ],
+)
+def test_stopped_in_the_middle_of_a_film_nothing_is_left(tmp_path, name, ending, code):
     """A terminal sends the signal to ffmpeg as well."""
     process = subprocess.Popen(
         [*CAPTURE, "--fps", "240", "-o", name], cwd=tmp_path, env=environment(), stdout=subprocess.PIPE,
@@ -34,9 +43,9 @@ def test_stopped_in_the_middle_of_a_film_nothing_is_left(tmp_path, name):
         time.sleep(0.02)
     time.sleep(0.3)
     assert process.poll() is None
-    os.killpg(process.pid, signal.SIGINT)
+    os.killpg(process.pid, ending)
     out, err = process.communicate(timeout=60)
-    assert process.returncode == EXIT_INTERRUPTED
+    assert process.returncode == code
     assert (out, err) == ("", "")
     assert list(tmp_path.iterdir()) == []
 
