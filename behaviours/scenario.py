@@ -13,7 +13,7 @@ import tomllib
 from pathlib import Path
 from typing import Annotated, Any, Literal
 
-from pydantic import BaseModel, ConfigDict, Field, ValidationError, field_validator, model_validator
+from pydantic import AfterValidator, BaseModel, ConfigDict, Field, ValidationError, field_validator, model_validator
 
 from behaviours.threats import KINDS
 from engine.body.skeleton import JOINTS
@@ -66,10 +66,16 @@ class CharacterSpec(_Section):
     mass_kg: Annotated[float, Field(gt=10, lt=300)] | None = None
 
 
+def _known_kind(kind: str) -> str:
+    if kind not in KINDS:
+        raise ValueError(f"unknown kind {kind!r}; {_nearest(kind, tuple(KINDS))}")
+    return kind
+
+
 class ThreatSpec(_Section):
     """One ball. Scripted: given at contact, in the character's frame. Free: given at launch, in the world."""
 
-    kind: str = "volleyball"
+    kind: Annotated[str, AfterValidator(_known_kind)] = "volleyball"
     target: str | tuple[float, float, float] = "head"
     at_character: Annotated[int, Field(ge=0)] = 0
     perceived_s: Annotated[float, Field(ge=0)] | None = None
@@ -89,13 +95,6 @@ class ThreatSpec(_Section):
     released_s: Annotated[float, Field(ge=0)] = 0.0
     position_m: tuple[float, float, float] | None = None
     velocity_mps: tuple[float, float, float] | None = None
-
-    @field_validator("kind")
-    @classmethod
-    def _known_kind(cls, kind: str) -> str:
-        if kind not in KINDS:
-            raise ValueError(f"unknown kind {kind!r}; {_nearest(kind, tuple(KINDS))}")
-        return kind
 
     @field_validator("target")
     @classmethod
@@ -130,7 +129,7 @@ class ThrowSpec(_Section):
     at_character: Annotated[int, Field(ge=0)] = 0
     position_m: tuple[float, float, float]
     velocity_mps: tuple[float, float, float]
-    kind: Literal["volleyball", "custom"] = "volleyball"
+    kind: Annotated[str, AfterValidator(_known_kind)] = "volleyball"
     size: Annotated[float, Field(ge=0, le=1)] = 0.5
 
 

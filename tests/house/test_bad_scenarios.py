@@ -2,6 +2,8 @@
 
 import pytest
 
+from behaviours.scenario import check_scenario
+from behaviours.threats import KINDS
 from demos.cli import main
 
 HEAD = "version = 1\nduration_s = 0.1\n"
@@ -88,3 +90,10 @@ def test_a_file_that_cannot_be_read_is_named(tmp_path, capsys):
     (tmp_path / "binary.toml").write_bytes(b"\xff\xfe\x00\x01")
     assert main(["react", str(tmp_path / "binary.toml")]) == 2
     assert "is not text" in capsys.readouterr().err
+
+
+def test_a_kind_that_is_added_may_be_thrown_as_well(monkeypatch):
+    monkeypatch.setitem(KINDS, "medicine_ball", KINDS["custom"]._replace(mass_kg=3.0))
+    throw = {"kind": "medicine_ball", "position_m": [4, 0, 1], "velocity_mps": [-8, 0, 2]}
+    scenario = check_scenario({"command": [{"at_s": 1, "throw": throw}], "threat": [{"kind": "medicine_ball"}]})
+    assert scenario.command[0].throw.kind == scenario.threat[0].kind == "medicine_ball"
