@@ -105,13 +105,11 @@ def hold_feet(body, goals, own_lengths, knees, weight, root_m, rotations, positi
     """Leg IK onto the goals of both feet; lowers the pelvis first where a goal is out of a leg's reach. In place.
 
     `own_lengths` (2,): how long the legs would be without any goal, see `drop_beyond_own`. `knees` at a weight of
-    their way. Returns by how much it lowers the pelvis, metres.
+    their way. Returns by how much the pelvis would be lowered for either foot; it is by the greater, metres.
     """
-    drop = 0.0
-    for side in range(2):
-        if goals.bound[side]:
-            need = drop_beyond_own(body, positions[HIPS[side]], goals.ankle_m[side], side, own_lengths[side])
-            drop = max(drop, goals.bears[side] * need)
+    left_m = drop_for(body, goals, 0, own_lengths[0], positions)
+    right_m = drop_for(body, goals, 1, own_lengths[1], positions)
+    drop = max(left_m, right_m)
     if drop > 0.0:
         root_m[2] -= drop
         for j in range(JOINT_COUNT):
@@ -122,7 +120,16 @@ def hold_feet(body, goals, own_lengths, knees, weight, root_m, rotations, positi
             swivel = swivel_at(knees, weight, side, goals.ankle_m[side], positions, orientations)
             target = reachable(body, vector.at(positions, HIPS[side]), goals.ankle_m[side], side, goals.bears[side])
             apply_leg(body, rotations, positions, orientations, side, target, goals.turned[side], swivel, 0.0)
-    return drop
+    return left_m, right_m
+
+
+@inner_kernel
+def drop_for(body, goals, side, own_length_m, positions):
+    """How far the hips have to sink for one foot, metres; the less, the less it bears."""
+    if not goals.bound[side]:
+        return 0.0
+    need_m = drop_beyond_own(body, positions[HIPS[side]], goals.ankle_m[side], side, own_length_m)
+    return goals.bears[side] * need_m
 
 
 @njit(cache=True)

@@ -25,7 +25,8 @@ TRIES, LAST_TRIES = 5, 2
 # from two fifths of that to nearly all of it; of either, each try leaves less than a half
 GAIN = 1.5
 LAST_GAIN = 0.7
-AHEAD_GAIN = 0.6  # how far the COM hurries on along its line for a pelvis that has to sink by one
+# how far the COM is moved along its line for a leg that is too short by one, and how steep a leg counts as plumb
+ALONG_GAIN, PLUMB = 0.4, 0.3
 LEGS_SHARE = 0.5  # of the pelvis's way that the legs go, feet held
 
 
@@ -34,8 +35,8 @@ def balance(body, start, end, weight, goals, ways, knees, root_m, rotations, pos
     """Moves the pelvis until the COM is on its line, everything else held where it belongs. In place.
 
     start, end: BlendEnds; the pose is the first pass's. Where a foot stands, or comes to stand, out of reach, the COM
-    is farther on along its line than the rest: at its end all feet are in reach. Returns how far limits keep either
-    hand off its way, metres.
+    is farther on along its line than the rest, or not so far, whichever brings the foot into reach: at either end all
+    are. Returns how far limits keep either hand off its way, metres.
 
     A straight knee moves ten times as far as the hip that bends it: were it let into the search, that would run away
     from it. So the legs count at first as going half of the pelvis's way; as they do go only in the end. And where the
@@ -45,6 +46,7 @@ def balance(body, start, end, weight, goals, ways, knees, root_m, rotations, pos
     waist, back = quaternion.at(rotations, WAIST), quaternion.at(rotations, BACK)
     led, sunk_m = hold_ends(body, start, end, weight, goals, ways, knees, root_m, rotations, positions, orientations)
     far_m, ahead_m = max(vector.distance(start.com_m, end.com_m), 1e-9), 0.0
+    line = vector.scale(vector.subtract(end.com_m, start.com_m), 1.0 / far_m)
     legs, mass, legs_mass = legs_moment(body, positions, orientations)
     first = legs_moment(body, start.positions, start.orientations)[0]
     last = legs_moment(body, end.positions, end.orientations)[0]
@@ -53,7 +55,9 @@ def balance(body, start, end, weight, goals, ways, knees, root_m, rotations, pos
     first_m = (root_m[0], root_m[1], root_m[2])
     for n in range(TRIES + LAST_TRIES):
         com_m = centre_of_mass(body, positions, orientations)
-        ahead_m = min(ahead_m + AHEAD_GAIN * sunk_m, max(1.0 - weight, 0.0) * far_m)
+        for side in range(2):
+            ahead_m += ALONG_GAIN * sunk_m[side] * towards_foot(line, goals, side, positions)
+        ahead_m = max(min(ahead_m, max(1.0 - weight, 0.0) * far_m), -weight * far_m)
         wanted_m = vector.mix(start.com_m, end.com_m, weight + ahead_m / far_m)
         off_m = vector.subtract(wanted_m, com_m)
         if n < TRIES:
@@ -70,6 +74,14 @@ def balance(body, start, end, weight, goals, ways, knees, root_m, rotations, pos
             body, start, end, weight, goals, ways, knees, root_m, rotations, positions, orientations
         )
     return led
+
+
+@inner_kernel
+def towards_foot(line, goals, side, positions):
+    """How far along a line (a unit vector) a hip has to go for its leg to be shorter by one, near to plumb less."""
+    leg = vector.subtract(vector.at(goals.ankle_m, side), vector.at(positions, HIPS[side]))
+    steep = vector.inner(line, leg) / max(vector.length(leg), 1e-9)
+    return steep / (steep * steep + PLUMB * PLUMB)
 
 
 @inner_kernel
@@ -90,7 +102,7 @@ def legs_moment(body, positions, orientations):
 def hold_ends(body, start, end, weight, goals, ways, knees, root_m, rotations, positions, orientations):
     """Feet, neck, head and hands where they belong at this weight, whatever the pelvis. In place.
 
-    Returns how far limits keep either hand off its way, and by how much the pelvis sinks for the feet, metres.
+    Returns how far limits keep either hand off its way, and by how much the pelvis would sink for either foot, metres.
     """
     joints_into(body.offset_m, root_m, rotations, positions, orientations)
     first, last = leg_lengths(start.positions), leg_lengths(end.positions)

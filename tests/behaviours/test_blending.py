@@ -8,7 +8,7 @@ from numba import njit
 
 from behaviours.arm_ways import BEYOND_RAD
 from behaviours.blending import primary_support
-from behaviours.held_feet import Knees, reachable, swivel_at
+from behaviours.held_feet import FootGoals, Knees, reachable, swivel_at
 from behaviours.measures import distance_from_line
 from engine.body.kinematics import com_of, joints_of
 from engine.body.limb_ik import apply_leg
@@ -93,6 +93,41 @@ def test_a_trunk_that_bows_keeps_its_neck_nearer_to_a_line():
     arc = distance_from_line(np.array(slerped), first, last).max()
     assert arc > 0.02
     assert distance_from_line(shown, first, last).max() < 0.55 * arc
+
+
+def in_a_stride(pose: Pose, forward_m: float, short_m: float, lean_deg: float) -> Pose:
+    """The left foot 30 cm ahead, the right one as far behind; the pelvis so high that one leg is short of straight by
+    so much, the trunk leaning back.
+    """
+    rotations, feet = pose.rotations.copy(), stride()
+    rotations[WAIST] = components_to_rotation(0.0, -np.radians(lean_deg), 0.0)
+    end = end_of(Pose(pose.root_m + [forward_m, 0.0, 0.0], rotations))
+    heights_m = []
+    for side in range(2):
+        reach = sum(float(np.linalg.norm(BODY.offset_m[joint])) for joint in (KNEES[side], ANKLES[side])) - short_m
+        x, y, z = end.positions[HIPS[side]] - feet.ankle_m[side]
+        heights_m.append(np.sqrt(reach**2 - x**2 - y**2) - z)
+    end = end_of(Pose(end.root_m + [0.0, 0.0, min(heights_m)], rotations))
+    for side in range(2):
+        ankle, turned = feet.ankle_m[side], feet.turned[side]
+        apply_leg(BODY, end.rotations, end.positions, end.orientations, side, ankle, turned, 0.0, 0.0)
+    return Pose(end.root_m, end.rotations)
+
+
+def stride() -> FootGoals:
+    feet = held(standing())
+    return feet._replace(ankle_m=feet.ankle_m + np.array([[0.3, 0.0, 0.0], [-0.3, 0.0, 0.0]]))
+
+
+@pytest.mark.parametrize("forward", [True, False])
+def test_the_com_waits_on_its_line_for_a_leg_that_would_be_too_short(forward):
+    """Over a leg that stays behind, straight, the trunk leaning the other way: hurrying on would make it worse."""
+    first, last = in_a_stride(at_ease(), 0.0, 0.01, 0.0), in_a_stride(on_guard(), 0.2, 0.001, 25.0)
+    if not forward:
+        first, last = last, first
+    ends = com_of(BODY, first), com_of(BODY, last)
+    coms = np.array([com_of(BODY, between(first, last, w, goals=stride())) for w in np.linspace(0.0, 1.0, 41)])
+    assert distance_from_line(coms, *ends).max() < 0.002
 
 
 def test_the_primary_support_is_the_planted_foot_nearest_to_the_com():
