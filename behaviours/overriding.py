@@ -6,11 +6,14 @@ settings = override(Settings(), {"block.reach_far_m": 0.8, "lean_turn.neck_deg":
 from __future__ import annotations
 
 from difflib import get_close_matches
-from math import pi
+from math import isfinite, pi
 from typing import Any
 
 from behaviours.settings import CHOICES, Settings, constants
 from engine.core.errors import BadInput
+
+WORDS = {float: "a finite number", int: "a whole number", bool: "true or false"}
+MOST_COUNT, LONGEST_S = 1_000_000, 60.0
 
 
 def override(settings: Settings, changes: dict[str, Any]) -> Settings:
@@ -39,7 +42,7 @@ def _as_default(name: str, value: Any, default: Any, in_degrees: bool) -> Any:
         if isinstance(default, tuple):
             if len(value) != len(default):
                 raise ValueError
-            return tuple(float(v) * scale for v in value)
+            return tuple(_number(v) * scale for v in value)
         if isinstance(default, bool):
             if not isinstance(value, bool):
                 raise ValueError
@@ -48,16 +51,33 @@ def _as_default(name: str, value: Any, default: Any, in_degrees: bool) -> Any:
             if value not in CHOICES[name]:
                 raise BadInput("setting", f"{name} is {value!r}; expected {' | '.join(CHOICES[name])}")
             return str(value)
-        if isinstance(value, bool) or float(value) != float(value):
-            raise ValueError
-        if isinstance(default, int):
-            if int(value) != float(value):
-                raise ValueError
-            return int(value)
-        return float(value) * scale
-    except (TypeError, ValueError):
-        wanted = f"{len(default)} numbers" if isinstance(default, tuple) else type(default).__name__
+        number = _number(value)
+    except (TypeError, ValueError, OverflowError):
+        wanted = f"{len(default)} numbers" if isinstance(default, tuple) else WORDS[type(default)]
         raise BadInput("setting", f"{name} is {value!r}; expected {wanted}") from None
+    _check_range(name, value, number, default)
+    return int(number) if isinstance(default, int) else number * scale
+
+
+def _number(value: Any) -> float:
+    """A finite number. ValueError or TypeError for anything else, `true` and the text of a number included."""
+    if isinstance(value, (bool, str)) or not isfinite(float(value)):
+        raise ValueError
+    return float(value)
+
+
+def _check_range(name: str, value: Any, number: float, default: Any) -> None:
+    """BadInput for a count below one, a duration below zero, a half-life or period of nothing: there a tick would
+    divide by zero, or wait for what is over. Anything else that is a number may be tried.
+    """
+    if isinstance(default, int):
+        if number != int(number) or not 1 <= number <= MOST_COUNT:
+            raise BadInput("setting", f"{name} is {value!r}; expected a whole number from 1 to {MOST_COUNT}")
+    elif name.endswith("_s"):
+        never_none = name.endswith(("half_life_s", "period_s"))
+        if number < 0.0 or number > LONGEST_S or (never_none and number == 0.0):
+            least = "above 0" if never_none else "from 0"
+            raise BadInput("setting", f"{name} is {value!r}; expected seconds, {least} to {LONGEST_S:g}")
 
 
 def _nearest(name: str) -> str:

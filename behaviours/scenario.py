@@ -20,7 +20,21 @@ from engine.body.skeleton import JOINTS
 from engine.core.errors import BadInput
 
 Recover = Literal["same", "new", "auto"]
+PLAIN_WORDS = {  # for what pydantic says in words of Python
+    "tuple_type": "expected a list",
+    "too_short": "expected at least one",
+    "model_type": "expected a table of keys",
+    "dict_type": "expected a table of keys",
+    "missing": "is missing",
+}
 BODY_TARGETS = ("head", "torso", "pelvis")
+
+
+MOST_TURN_DEG, FARTHEST_M, FASTEST_MPS, MOST_SPIN_RADPS = 360.0, 1000.0, 200.0, 1000.0
+Turn = Annotated[float, Field(ge=-MOST_TURN_DEG, le=MOST_TURN_DEG)]
+Along = Annotated[float, Field(ge=-FARTHEST_M, le=FARTHEST_M)]  # one coordinate
+Rate = Annotated[float, Field(ge=-FASTEST_MPS, le=FASTEST_MPS)]
+Spin = Annotated[float, Field(ge=-MOST_SPIN_RADPS, le=MOST_SPIN_RADPS)]
 
 
 class _Section(BaseModel):
@@ -53,8 +67,8 @@ class CharacterSpec(_Section):
 
     clip: str = "walk"
     start_s: Annotated[float, Field(ge=0)] = 0.0
-    position_m: tuple[float, float] = (0.0, 0.0)
-    heading_deg: float = 0.0
+    position_m: tuple[Along, Along] = (0.0, 0.0)
+    heading_deg: Turn = 0.0
     mirrored: bool = False
     stance: StanceSpec = StanceSpec()
     boldness: Annotated[float, Field(ge=-1, le=1)] = 0.0  # -1 timid ... +1 bold
@@ -80,9 +94,9 @@ class ThreatSpec(_Section):
     at_character: Annotated[int, Field(ge=0)] = 0
     perceived_s: Annotated[float, Field(ge=0)] | None = None
     contact_s: Annotated[float, Field(ge=0)] | None = None
-    azimuth_deg: float = 0.0
+    azimuth_deg: Turn = 0.0
     elevation_deg: Annotated[float, Field(gt=-90, lt=90)] = 0.0
-    speed_mps: Annotated[float, Field(gt=0, le=200)] | None = None
+    speed_mps: Annotated[float, Field(gt=0, le=FASTEST_MPS)] | None = None
     size: Annotated[float, Field(ge=0, le=1)] = 0.5
     size_means: Literal["rule", "radius", "mass", "both"] = "rule"
     speed_range_mps: tuple[float, float] | None = None
@@ -90,17 +104,19 @@ class ThreatSpec(_Section):
     mass_kg: Annotated[float, Field(gt=0, le=500)] | None = None
     ttc_s: Annotated[float, Field(gt=0, le=10)] | None = None
     drag: bool = False
-    spin_radps: tuple[float, float, float] = (0.0, 0.0, 0.0)
+    spin_radps: tuple[Spin, Spin, Spin] = (0.0, 0.0, 0.0)
     free: bool = False
     released_s: Annotated[float, Field(ge=0)] = 0.0
-    position_m: tuple[float, float, float] | None = None
-    velocity_mps: tuple[float, float, float] | None = None
+    position_m: tuple[Along, Along, Along] | None = None
+    velocity_mps: tuple[Rate, Rate, Rate] | None = None
 
     @field_validator("target")
     @classmethod
     def _known_target(cls, target: Any) -> Any:
         if isinstance(target, str) and target not in BODY_TARGETS + JOINTS:
             raise ValueError(f"unknown target {target!r}; {_nearest(target, BODY_TARGETS + JOINTS)}")
+        if not isinstance(target, str) and max(map(abs, target)) > FARTHEST_M:
+            raise ValueError(f"a point should be at most {FARTHEST_M:g} m away")
         return target
 
     @model_validator(mode="after")
@@ -127,8 +143,8 @@ class ThrowSpec(_Section):
     """A ball that somebody throws from somewhere, in the world; it may miss."""
 
     at_character: Annotated[int, Field(ge=0)] = 0
-    position_m: tuple[float, float, float]
-    velocity_mps: tuple[float, float, float]
+    position_m: tuple[Along, Along, Along]
+    velocity_mps: tuple[Rate, Rate, Rate]
     kind: Annotated[str, AfterValidator(_known_kind)] = "volleyball"
     size: Annotated[float, Field(ge=0, le=1)] = 0.5
 
@@ -161,9 +177,9 @@ class Scenario(_Section):
     """A whole run, checked. `settings` holds overrides of the thesis's constants, dotted in groups."""
 
     version: Literal[1] = 1
-    seed: Annotated[int, Field(ge=0)] = 0
+    seed: Annotated[int, Field(ge=0, lt=2**63)] = 0
     duration_s: Annotated[float, Field(gt=0, le=600)] = 4.0
-    character: tuple[CharacterSpec, ...] = (CharacterSpec(),)
+    character: Annotated[tuple[CharacterSpec, ...], Field(min_length=1)] = (CharacterSpec(),)
     threat: tuple[ThreatSpec, ...] = ()
     command: tuple[CommandSpec, ...] = ()  # applied before the tick of their moment
     library: tuple[str, ...] | None = (
@@ -211,11 +227,16 @@ def parse_scenario(text: str, where: str = "scenario", overrides: tuple[str, ...
         raise BadInput("toml", str(trouble), f"{where}:{line[1]}" if line else where) from None
     for override in overrides:
         _override(raw, override)
-    return check_scenario(raw, where, text)
+    return check_scenario(raw, where, text, overrides)
 
 
-def check_scenario(raw: dict[str, Any], where: str = "scenario", text: str = "") -> Scenario:
-    """A scenario from plain data, every key checked. BadInput on the first trouble, counting the rest."""
+def check_scenario(
+    raw: dict[str, Any], where: str = "scenario", text: str = "", overrides: tuple[str, ...] = ()
+) -> Scenario:
+    """A scenario from plain data, every key checked. BadInput on the first trouble, counting the rest.
+
+    text, overrides: what the data was read from, so that the trouble's line, or its `--set`, can be named.
+    """
     try:
         return Scenario.model_validate(raw)
     except ValidationError as trouble:
@@ -224,8 +245,7 @@ def check_scenario(raw: dict[str, Any], where: str = "scenario", text: str = "")
         keys = [str(key) for key in first["loc"] if key not in ("str", "tuple[float, float, float]")]
         message = _explain(first, keys)
         more = f" (and {len(errors) - 1} more)" if len(errors) > 1 else ""
-        line = _line_of(text, keys)
-        raise BadInput("scenario", message + more, f"{where}:{line}" if line else where) from None
+        raise BadInput("scenario", message + more, _place_of(keys, where, text, overrides)) from None
 
 
 def check_threat(raw: dict[str, Any]) -> ThreatSpec:
@@ -243,10 +263,20 @@ def _explain(error: Any, keys: list[str]) -> str:
         sections: dict[str, type[_Section]] = {"character": CharacterSpec, "threat": ThreatSpec, "command": CommandSpec}
         section = StanceSpec if "stance" in keys[:-1] else sections.get(keys[0], Scenario)
         return f"unknown key {dotted!r}; {_nearest(keys[-1], tuple(section.model_fields))}"
-    reason = error["msg"].removeprefix("Value error, ")
+    reason = PLAIN_WORDS.get(error["type"]) or error["msg"].removeprefix("Value error, ")
     given = error.get("input")
     shown = "" if isinstance(given, dict) or given is None else f", found {given!r}"
     return f"{dotted}: {reason}{shown}" if dotted else reason
+
+
+def _place_of(keys: list[str], where: str, text: str, overrides: tuple[str, ...]) -> str:
+    """Where a value comes from: the `--set` that gave it, else the file and, where it can be told, its line."""
+    for override in reversed(overrides):
+        given = override.partition("=")[0].strip().split(".")
+        if keys[: len(given)] == given:
+            return f"--set {override}"
+    line = _line_of(text, keys)
+    return f"{where}:{line}" if line else where
 
 
 def _nearest(name: str, known: tuple[str, ...]) -> str:

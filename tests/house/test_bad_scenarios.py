@@ -66,8 +66,13 @@ def test_one_line_and_exit_code_2(case, tmp_path, capsys, library_clip):
         ("threat.7.speed_mps=3", "no entry '7'"),
         ("threat.0.speed_mps", "not of the form key=value"),
         ("duration_s.x=3", "'duration_s' holds a value"),
-        ("settings.timing.angle_free=maybe", "expected bool"),
-        ("character.0.response_s=0", "greater than 0"),
+        ("settings.timing.angle_free=maybe", "expected true or false"),
+        ("character.0.response_s=0", "--set character.0.response_s=0: character.0.response_s: Input should be greater"),
+        ("threat.0.azimuth_deg=1e300", "less than or equal to 360"),
+        ("character.0.position_m=[1e300, 0]", "less than or equal to 1000"),
+        ("seed=99999999999999999999999999", "less than 9223372036854775808"),
+        ("character=[]", "character: expected at least one"),
+        ("threat=3", "threat: expected a list"),
     ],
 )
 def test_so_does_an_override(override, words, capsys):
