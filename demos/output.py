@@ -5,7 +5,10 @@ from __future__ import annotations
 import json
 import os
 import sys
+from pathlib import Path
 from typing import Any
+
+from engine.core.errors import EnvironmentTrouble
 
 
 def print_json(data: Any) -> None:
@@ -28,6 +31,18 @@ def say(message: str) -> None:
     """A word to the person at the terminal; silent in a pipe, so that only results are piped."""
     if sys.stderr.isatty():
         print(message, file=sys.stderr)
+
+
+def made_folder(path: str) -> Path:
+    """The folder, made where it is not there yet. EnvironmentTrouble where it cannot be."""
+    folder = Path(path)
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+    except OSError as trouble:
+        raise EnvironmentTrouble(
+            "unwritable", f"cannot be made a folder: {trouble.strerror or trouble}", path
+        ) from None
+    return folder
 
 
 def _plain(value: Any) -> Any:

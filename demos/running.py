@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import importlib
+import re
 import sys
 from collections.abc import Iterable, Sequence
 from pathlib import Path
@@ -30,7 +31,22 @@ def open_scenario(name_or_path: str, overrides: Sequence[str] = ()) -> tuple[Sce
         text = tomlkit.dumps(importlib.import_module(f"demos.{name_or_path}").scenario())
         return parse_scenario(text, name_or_path, tuple(overrides)), FOLDER
     path = find_scenario(name_or_path)
-    return load_scenario(path, tuple(overrides)), path.resolve().parent
+    folder = path.resolve().parent
+    return load_scenario(path, tuple(with_clips_from_here(overrides, folder))), folder
+
+
+def with_clips_from_here(overrides: Sequence[str], folder: Path) -> list[str]:
+    """The overrides, a clip's file by its whole path where it lies here and not beside the scenario: what is typed
+    counts from where one stands.
+    """
+    out = []
+    for override in overrides:
+        key, _, value = override.partition("=")
+        file = Path(value.strip("'\" ")).expanduser()
+        is_clip = re.fullmatch(r"character\.\d+\.clip", key.strip()) is not None
+        found = is_clip and file.is_file() and not (folder / file).is_file()
+        out.append(f"{key}='{file.resolve()}'" if found else override)
+    return out
 
 
 def start(scenario: Scenario, folder: Path, observe: bool = False) -> Simulation:

@@ -3,6 +3,34 @@
 from __future__ import annotations
 
 import argparse
+import math
+from collections.abc import Callable
+
+
+def whole(least: int = 1) -> Callable[[str], int]:
+    """An argparse `type`: a whole number of at least this."""
+
+    def read(text: str) -> int:
+        try:
+            number = int(text)
+        except ValueError:
+            number = least - 1
+        if number < least:
+            raise argparse.ArgumentTypeError(f"found {text!r}, expected a whole number from {least}")
+        return number
+
+    return read
+
+
+def seconds(text: str) -> float:
+    """An argparse `type`: a moment of a run or a clip, 0 or later."""
+    try:
+        moment_s = float(text)
+    except ValueError:
+        moment_s = math.nan
+    if not 0.0 <= moment_s < math.inf:
+        raise argparse.ArgumentTypeError(f"found {text!r}, expected seconds, 0 or more")
+    return moment_s
 
 
 def add_scenario(parser: argparse.ArgumentParser, default: str | None = None) -> None:

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import argparse
-from pathlib import Path
 
-from demos.output import print_json, say
+from demos.commands.arguments import whole
+from demos.output import made_folder, print_json, say
 from engine.core.errors import BadInput
 
 
@@ -20,14 +20,18 @@ def register(subparsers) -> None:
     parser.add_argument("--json", action="store_true", help="the same for programs")
     parser.add_argument("--motion", action="store_true", help="how good motion is, over seeded threats at real clips")
     parser.add_argument("--stance", action="store_true", help="how good stances are, over solves of all sets")
-    parser.add_argument("--cases", type=int, metavar="N", help="of --motion (200) or --stance (504)")
-    parser.add_argument("--seed", type=int, default=1, help="with --motion, --stance: of the cases (1)")
+    parser.add_argument("--cases", type=whole(), metavar="N", help="of --motion (200) or --stance (504)")
+    parser.add_argument("--seed", type=whole(0), default=1, help="with --motion, --stance: of the cases (1)")
     parser.add_argument("--out", metavar="DIR", help="with --motion: the worst cases as filmstrips")
     parser.add_argument("--render", action="store_true", help="what a frame takes to draw, and the quality it picks")
     parser.set_defaults(run=run)
 
 
 def run(args: argparse.Namespace) -> None:
+    if args.motion + args.stance + args.render + bool(args.names) > 1:
+        raise BadInput("usage", "--motion, --stance, --render and names of benchmarks: expected one of them at a time")
+    if args.out and not args.motion:
+        raise BadInput("usage", "--out goes with --motion: it draws the worst of its cases")
     from demos.benchmarks import NAMES, measure
     from demos.cli import nearest
 
@@ -67,11 +71,10 @@ def bench_motion(args: argparse.Namespace) -> None:
     from demos.running import with_progress
 
     forget_stale()
-    found = bench(_cases(args, 200), args.seed, lambda rows, total: with_progress(rows, "throwing", total))
+    folder = made_folder(args.out) if args.out else None
+    found = bench(args.cases or 200, args.seed, lambda rows, total: with_progress(rows, "throwing", total))
     figures = figures_of(found.rows, found.poses)
-    if args.out:
-        folder = Path(args.out)
-        folder.mkdir(parents=True, exist_ok=True)
+    if folder:
         for path in write_worst(figures, found.clips, folder):
             say(f"wrote {path}")
     if args.json:
@@ -122,19 +125,11 @@ def bench_stance(args: argparse.Namespace) -> None:
     from demos.benchmarks.stance_bars import CASES, bars, table
     from demos.running import with_progress
 
-    found = bars(_cases(args, CASES), args.seed, lambda cases: with_progress(cases, "solving", len(cases)))
+    found = bars(args.cases or CASES, args.seed, lambda cases: with_progress(cases, "solving", len(cases)))
     if args.json:
         print_json({"figures": [bar._asdict() for bar in found]})
         return
     print("\n".join(table(found)))
-
-
-def _cases(args: argparse.Namespace, usual: int) -> int:
-    """How many cases are asked for. BadInput below one."""
-    count = usual if args.cases is None else args.cases
-    if count < 1:
-        raise BadInput("usage", f"--cases {count}: expected at least 1")
-    return count
 
 
 def bench_render(args: argparse.Namespace) -> None:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import argparse
 import math
 
-from demos.commands.arguments import add_filming, add_scenario, shot_of
+from demos.commands.arguments import add_filming, add_scenario, seconds, shot_of, whole
 from demos.output import say
 from engine.core.errors import BadInput
 
@@ -23,10 +23,10 @@ def register(subparsers) -> None:
     )
     add_scenario(parser)
     parser.add_argument("-o", "--output", required=True, metavar="OUT", help="x.mp4, x.gif, x.png (strip) or a folder")
-    parser.add_argument("--frames", type=int, metavar="N", help=f"pictures in a filmstrip ({STRIP_FRAMES})")
-    parser.add_argument("--columns", type=int, metavar="N", help=f"pictures in its row (at most {STRIP_COLUMNS})")
-    parser.add_argument("--from", type=float, dest="from_s", metavar="S", help="only from this second on")
-    parser.add_argument("--to", type=float, dest="to_s", metavar="S", help="only up to this second")
+    parser.add_argument("--frames", type=whole(), metavar="N", help=f"pictures in a filmstrip ({STRIP_FRAMES})")
+    parser.add_argument("--columns", type=whole(), metavar="N", help=f"pictures in its row (at most {STRIP_COLUMNS})")
+    parser.add_argument("--from", type=seconds, dest="from_s", metavar="S", help="only from this second on")
+    parser.add_argument("--to", type=seconds, dest="to_s", metavar="S", help="only up to this second")
     parser.add_argument("--slow", action="store_true", help="slow motion just before and after each blow")
     parser.add_argument(
         "--depth", metavar="FOLDER", help="beside a film: distances, 16 bit PNGs, millimetres, 0 nothing"
@@ -52,7 +52,7 @@ def run(args: argparse.Namespace) -> None:
     truth = _ground_truth(args, kind, shot)
     simulation = start(*open_scenario(args.scenario, args.set))
     shot = placed_for(shot, simulation.scenario)._replace(slow=args.slow)
-    span = (args.from_s, args.to_s)
+    span = _span(args, simulation.scenario.duration_s)
     with studio() as renderer:
         if kind == "png":
             write_strip(renderer, args.output, simulation, shot, args.frames, args.columns, *span)
@@ -65,6 +65,14 @@ def run(args: argparse.Namespace) -> None:
         say(f"wrote {path}")
 
 
+def _span(args: argparse.Namespace, lasts_s: float) -> tuple[float | None, float | None]:
+    """From which second to which. BadInput, before any work, where nothing of the run lies there."""
+    if (args.from_s or 0.0) > min(lasts_s, math.inf if args.to_s is None else args.to_s):
+        to_s = lasts_s if args.to_s is None else args.to_s
+        raise BadInput("usage", f"nothing lies from {args.from_s:g} to {to_s:g} s; the scenario lasts {lasts_s:g} s")
+    return args.from_s, args.to_s
+
+
 def _ground_truth(args: argparse.Namespace, kind: str, shot):
     """What is to be written beside the pictures, its places checked; None where nothing is."""
     from demos.ground_truth import GroundTruth
@@ -73,6 +81,8 @@ def _ground_truth(args: argparse.Namespace, kind: str, shot):
         return None
     if kind == "png":
         raise BadInput("usage", "--depth, --mask and --tracks go with a film or a folder of pictures, not with a strip")
+    if args.tracks and not args.tracks.lower().endswith(".npz"):
+        raise BadInput("usage", f"--tracks {args.tracks}: expected a name that ends in .npz")
     return GroundTruth(shot, args.depth, args.mask, args.tracks)
 
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import argparse
 from typing import Any
 
+from demos.commands.arguments import seconds
 from demos.output import print_json
 from engine.core.errors import BadInput
 
@@ -24,7 +25,7 @@ def register(subparsers) -> None:
     show = what.add_parser("show", help="what an import makes of a file", epilog="example: brace clips show 02_01.bvh")
     show.add_argument("file", metavar="FILE", help="a .bvh, .amc (its .asf beside it) or .npz file, or a clip's name")
     show.add_argument("--json", action="store_true", help="the report for programs, with all joints at --at")
-    show.add_argument("--at", type=float, default=0.0, metavar="S", help="the moment whose joints to give (0)")
+    show.add_argument("--at", type=seconds, default=0.0, metavar="S", help="the moment whose joints to give (0)")
     parser.set_defaults(run=run, json=False)
 
 

@@ -7,6 +7,7 @@ import os
 from pathlib import Path
 
 from demos.commands.arguments import add_filming, add_scenario, shot_of
+from demos.output import made_folder
 from engine.core.errors import BadInput, EnvironmentTrouble
 
 OFFLINE_SCENARIO = "sway"
@@ -40,6 +41,7 @@ def register(subparsers) -> None:
 def run(args: argparse.Namespace) -> None:
     if args.scale and not 0.5 <= args.scale <= 4.0:
         raise BadInput("usage", f"--scale {args.scale:g}: expected 0.5 to 4")
+    _quality(args.quality)
     if os.environ.get("DISPLAY") or os.environ.get("WAYLAND_DISPLAY"):
         _window(args)
     else:
@@ -130,7 +132,7 @@ def _pictures(args: argparse.Namespace) -> None:
     scenario, folder = _scenario(args)
     simulation = start(scenario, folder)
     shot = placed_for(shot, scenario)
-    stem = _picture_folder(args.output) / Path(args.scenario).stem
+    stem = made_folder(args.output) / Path(args.scenario).stem
     strip, film = stem.with_suffix(".png"), stem.with_suffix(".mp4" if _has_ffmpeg() else ".gif")
     capture_kind(strip)
     capture_kind(film)
@@ -150,12 +152,3 @@ def _has_ffmpeg() -> bool:
     except EnvironmentTrouble:
         return False
     return True
-
-
-def _picture_folder(name: str) -> Path:
-    folder = Path(name)
-    try:
-        folder.mkdir(parents=True, exist_ok=True)
-    except OSError as trouble:
-        raise EnvironmentTrouble("unwritable", f"cannot be made: {trouble.strerror or trouble}", name) from None
-    return folder

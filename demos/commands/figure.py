@@ -6,7 +6,7 @@ import argparse
 import sys
 from pathlib import Path
 
-from demos.output import say
+from demos.output import made_folder, say
 
 ALL, LIST = "all", "list"
 SCALE = 2.0  # pixels for a unit: a full page is 2000 pixels wide
@@ -50,16 +50,11 @@ def run(args: argparse.Namespace) -> None:
 def _paths(name: str, output: str, names: list[str]) -> list[Path]:
     """Where each figure goes, found writable before any is drawn."""
     from demos.figures.sheet import check_figure_output
-    from engine.core.errors import EnvironmentTrouble
 
     if name != ALL:
         check_figure_output(output)
         return [Path(output)]
-    try:
-        Path(output).mkdir(parents=True, exist_ok=True)
-    except OSError as trouble:
-        raise EnvironmentTrouble("unwritable", f"cannot be made a folder: {trouble.strerror}", output) from None
-    paths = [Path(output) / f"{each}.png" for each in names]
+    paths = [made_folder(output) / f"{each}.png" for each in names]
     for path in paths:
         check_figure_output(path)
     return paths

@@ -7,6 +7,7 @@ import math
 import time
 from typing import Any
 
+from demos.commands.arguments import seconds
 from demos.output import print_json, say
 
 REPEATS = 5  # the time reported is the best of these
@@ -21,7 +22,7 @@ def register(subparsers) -> None:
         epilog="example: brace pose --clip walk --at 1.0 --azimuth 30 --elevation 5 --speed 26 -o pose.png",
     )
     parser.add_argument("--clip", default="walk", metavar="C", help="library name or file (walk)")
-    parser.add_argument("--at", type=float, default=1.0, metavar="S", help="seconds into the clip (1)")
+    parser.add_argument("--at", type=seconds, default=1.0, metavar="S", help="seconds into the clip (1)")
     parser.add_argument("--azimuth", type=float, default=30.0, metavar="D", help="where it comes from: 90 is left (30)")
     parser.add_argument("--elevation", type=float, default=10.0, metavar="D", help="degrees above the horizon (10)")
     parser.add_argument("--speed", type=float, default=26.0, metavar="V", help="metres a second at contact (26)")

@@ -66,6 +66,33 @@ def test_wrong_words_are_one_line(words, capsys):
     assert err.count("\n") == 1
 
 
+NONSENSE = {
+    "capture sway -o x.png --frames -3": "--frames: found '-3', expected a whole number from 1",
+    "capture sway -o x.png --columns 0": "--columns: found '0', expected a whole number from 1",
+    "capture sway -o x.mp4 --from -1": "--from: found '-1', expected seconds, 0 or more",
+    "capture sway -o x.mp4 --to nan": "--to: found 'nan', expected seconds, 0 or more",
+    "capture sway -o x.mp4 --from 9": "nothing lies from 9 to 3.5 s; the scenario lasts 3.5 s",
+    "capture sway -o x.mp4 --from 2 --to 1": "nothing lies from 2 to 1 s",
+    "capture sway -o x.mp4 --tracks x.txt": "--tracks x.txt: expected a name that ends in .npz",
+    "pose --clip sway --at nan": "--at: found 'nan', expected seconds, 0 or more",
+    "pose --clip sway --azimuth 1e300": "less than or equal to 360",
+    "bench --motion --seed -1": "--seed: found '-1', expected a whole number from 0",
+    "bench --motion --render": "expected one of them at a time",
+    "bench search --out x": "--out goes with --motion",
+    "demo sway --quality good2": "--quality 'good2': expected auto, best",
+}
+
+
+@pytest.mark.parametrize("line", NONSENSE)
+def test_words_that_make_no_sense_are_refused_before_any_work(line, capsys, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    assert main(line.split()) == 2
+    err = capsys.readouterr().err
+    assert NONSENSE[line] in err
+    assert err.count("\n") == 1
+    assert list(tmp_path.iterdir()) == []
+
+
 @pytest.mark.parametrize(
     ("trouble", "code", "line"),
     [

@@ -140,3 +140,15 @@ def test_a_wrong_override_is_one_line(capsys, wrong):
 def test_a_recording_that_cannot_be_written_is_refused_before_the_run(capsys, place, exit_code, code):
     assert main(["react", "sway", "--record", place]) == exit_code
     assert one_line(capsys).startswith(f"error[{code}] {place}: ")
+
+
+def test_a_clip_that_is_typed_counts_from_here(tmp_path, monkeypatch, capsys):
+    """A scenario's own paths start beside it; a path on the command line starts where one stands."""
+    assert main(["export", "sway", "--set", "duration_s=1", "-o", str(tmp_path / "mine.bvh")]) == 0
+    monkeypatch.chdir(tmp_path)
+    capsys.readouterr()
+    assert main(["react", "sway", *SHORT, "--set", "character.0.clip=mine.bvh", "--record", "mine.brace"]) == 0
+    monkeypatch.chdir("/")
+    assert main(["replay", str(tmp_path / "mine.brace"), "--check"]) == 0
+    kept = load_journal(tmp_path / "mine.brace").header["scenario"]
+    assert kept["character"][0]["clip"] == str(tmp_path / "mine.bvh")
