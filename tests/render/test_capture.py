@@ -186,6 +186,7 @@ def test_no_ffmpeg_is_one_line(tmp_path, monkeypatch):
     [
         ("exit 1", "ended with code 1"),
         ("echo 'av_interleaved_write_frame(): No space left on device' >&2; exit 1", "disk is full"),
+        ("cat > /dev/null; echo 'Error writing trailer: No space left on device' >&2; exit 0", "disk is full"),
         ("cat > /dev/null; exit 0", "9 frames were written but 0"),  # claims success, wrote nothing
     ],
 )

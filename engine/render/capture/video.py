@@ -109,7 +109,7 @@ def _encode(ffmpeg: str, part: Path, frames, fps: float, where: str, progress) -
         code = process.wait()
         complaints.seek(0)
         said = complaints.read().decode("utf-8", "replace")
-    if count is None or code != 0:
+    if count is None or code != 0 or _no_room(said):  # it may end with 0 all the same
         raise _trouble(code, said, where)
     return count
 
@@ -166,7 +166,11 @@ def best_encoder(ffmpeg: str) -> str:
 def _trouble(code: int, said: str, where: str) -> EnvironmentTrouble:
     """ffmpeg's last words, in one line."""
     lines = [line for line in said.splitlines() if line.strip()]
-    if "No space left" in said or "File too large" in said or code == -signal.SIGXFSZ:
+    if _no_room(said) or code == -signal.SIGXFSZ:
         return EnvironmentTrouble("disk-full", "the disk is full; nothing was kept", where)
     last = lines[-1] if lines else f"it ended with code {code}"
     return EnvironmentTrouble("ffmpeg", f"ffmpeg failed: {last}", where)
+
+
+def _no_room(said: str) -> bool:
+    return "No space left" in said or "File too large" in said
