@@ -12,13 +12,16 @@ import math
 
 from behaviours import feet as foot_plan
 from behaviours.components import NOBODY, Blend, Feet, Phase, Reaction, Struck, Sustained
-from behaviours.playing import clip_pose
+from behaviours.playing import body_of, clip_pose
 from behaviours.reaction import STATE, enter, keep_continuous, moment_before
 from behaviours.recovery import return_clip_s
 from behaviours.seams import shown
 from behaviours.search import Found, best_window, enter_window, say_found, window_since_blow
 from behaviours.timing import TICK_S, whole_ticks
+from behaviours.windows import joint_shares
 from engine.core.schedule import Stage, system
+
+NO_GET_UP = "no motion that gets up"  # is in the library
 
 
 @system(Stage.DECIDE, reads=STATE, writes=STATE)
@@ -26,7 +29,7 @@ def get_up(world, tick):
     """Whoever is down and has lain still for a while gets up, if a motion for it is near enough."""
     settings, s = world.assets.settings.search, world[Struck]
     for row in world.rows(Struck, Reaction):
-        if world[Reaction].phase[row] != Phase.DOWN or world.assets.libraries[row] is None or s.said[row]:
+        if world[Reaction].phase[row] != Phase.DOWN or s.said[row]:
             continue
         s.rests[row] = s.rests[row] + 1 if mean_speed_mps(world, row) < settings.rest_mps else 0
         if s.rests[row] >= whole_ticks(settings.rest_s):
@@ -35,7 +38,7 @@ def get_up(world, tick):
 
 def mean_speed_mps(world, row: int) -> float:
     """How fast the body moves under the physics: root mean square over its mass."""
-    share = world.assets.libraries[row].motions.share
+    share = joint_shares(body_of(world, row))
     speed = window_since_blow(world, row).joints_mps[0]
     return math.sqrt(float((share * (speed**2).sum(axis=1)).sum()))
 
@@ -43,7 +46,7 @@ def mean_speed_mps(world, row: int) -> float:
 def rise_or_stay(world, row: int, tick: int) -> None:
     """Looks for a get-up. Without one, or with none near enough, the body stays down; that is said once."""
     settings, library = world.assets.settings.search, world.assets.libraries[row]
-    found = best_window(
+    found = library and best_window(
         library.motions, window_since_blow(world, row), "rising", settings.velocity_s, settings.candidates
     )
     if found is not None and found.distance_m <= settings.get_up_within_m:
@@ -51,7 +54,7 @@ def rise_or_stay(world, row: int, tick: int) -> None:
         begin_getting_up(world, row, tick, found)
         return
     world[Struck].said[row] = True
-    reason = "no motion that gets up" if found is None else f"the nearest get-up begins {found.distance_m:.2f} m off"
+    reason = NO_GET_UP if found is None else f"the nearest get-up begins {found.distance_m:.2f} m off"
     world.emit("stays_down", world.entity(row), reason=reason)
 
 

@@ -1,6 +1,7 @@
 """What a character may go on with after a blow: the clips of the library moved onto its body, and their index.
 
-Only for characters that may take up a new motion: nothing here is done, or imported, for the others.
+Who goes on with the same motion (`recover = "same"`) needs one only to get up with after a knock-down: for these the
+library is what may be a get-up, and without any nothing here is done, or imported.
 """
 
 from __future__ import annotations
@@ -26,26 +27,36 @@ def library_names(scenario: Scenario) -> tuple[str, ...]:
     return tuple(listed.name for listed in list_clips() if listed.ready)
 
 
+def get_up_names(scenario: Scenario) -> tuple[str, ...]:
+    """Those of `library_names` that somebody may get up with: the library's get-ups, and files, which may be one."""
+    upright = {listed.name for listed in list_clips() if not listed.gets_up}
+    return tuple(name for name in library_names(scenario) if name not in upright)
+
+
 def gather_libraries(
     scenario: Scenario, clips: tuple[Clip, ...], find: FindClip, settings: Settings
 ) -> tuple[tuple[Clip, ...], tuple[Library | None, ...]]:
     """All clips of the run, the characters' own (given) first, and one Library or None a character."""
     every = list(clips)
     libraries: list[Library | None] = []
-    for row, spec in enumerate(scenario.character):
-        if spec.recover == "same":
-            libraries.append(None)
-            continue
+    for row in range(len(scenario.character)):
         chosen = _chosen(scenario, clips, row, find)
-        libraries.append(_library(chosen, every, row, settings))
+        libraries.append(_library(chosen, every, row, settings) if chosen else None)
     return tuple(every), tuple(libraries)
 
 
 def _chosen(scenario: Scenario, clips: tuple[Clip, ...], row: int, find: FindClip) -> list[Clip]:
-    """The clips that a character's search looks at, no two the same: its own, the library's, the other characters'."""
+    """The clips that a character's search looks at, its own first, no two the same; none where it has no need of any.
+
+    For a new motion the library's and the other characters'; for the same one only what may be a get-up.
+    """
     spec = scenario.character[row]
-    named = [find(spec.model_copy(update={"clip": name, "mirrored": False})) for name in library_names(scenario)]
-    return list({clip.key: clip for clip in (clips[row], *named, *clips)}.values())
+    same = spec.recover == "same"
+    names = get_up_names(scenario) if same else library_names(scenario)
+    if same and not names:
+        return []
+    named = [find(spec.model_copy(update={"clip": name, "mirrored": False})) for name in names]
+    return list({clip.key: clip for clip in (clips[row], *named, *(() if same else clips))}.values())
 
 
 def _library(chosen: list[Clip], every: list[Clip], row: int, settings: Settings) -> Library:

@@ -20,9 +20,9 @@ from scipy.spatial import cKDTree
 
 from behaviours.components import SAMPLES, STRIDE_TICKS
 from behaviours.timing import TICK_S
-from behaviours.windows import FEATURES, features_of_all
+from behaviours.windows import FEATURES, features_of_all, joint_shares
 from engine.body.kinematics import joints_into
-from engine.body.skeleton import HEAD, HIPS, JOINT_COUNT, PARENT, Body
+from engine.body.skeleton import HEAD, HIPS, JOINT_COUNT, Body
 from engine.clips.cache import cache_folder, write_whole
 from engine.clips.clip import Clip
 from engine.clips.playback import planted_at, sample_into
@@ -52,19 +52,6 @@ class Prefilter:
 
     rows: np.ndarray
     tree: cKDTree | None  # None: there are no such rows
-
-
-def joint_shares(body: Body) -> np.ndarray:
-    """(J,) how much of the body's mass each joint speaks for: half of what hangs on it, half of what it ends.
-
-    A part's own joint says where it begins, the next one where it points; a hand, a foot or a head has but one.
-    """
-    share = np.zeros(JOINT_COUNT)
-    for joint, mass in zip(body.part_joint, body.part_mass_kg, strict=True):
-        ends = np.flatnonzero(np.equal(PARENT, joint))
-        share[joint] += mass if len(ends) == 0 else 0.5 * mass
-        share[ends] += 0.5 * mass / max(len(ends), 1)
-    return share / share.sum()
 
 
 def index_clips(

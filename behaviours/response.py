@@ -22,7 +22,6 @@ from behaviours.components import (
     Posture,
     Ragdoll,
     Reaction,
-    Recover,
     Residual,
     Struck,
     Sustained,
@@ -72,8 +71,7 @@ def step_bodies(world, tick):
         )
         doll.head_mps[row] = trace[:, HEAD]
         doll.stepped[row] = tick
-        if world[Struck].recover[row] != Recover.SAME:
-            remember(world, row, joints_of(model.body, ragdoll.pose_of(model, doll.state[row]))[0])
+        remember(world, row, joints_of(model.body, ragdoll.pose_of(model, doll.state[row]))[0])
         carry_ball(world, row, model)
 
 

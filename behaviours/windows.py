@@ -11,12 +11,25 @@ import math
 import numpy as np
 from numba import njit
 
-from engine.body.skeleton import HEAD, JOINT_COUNT, LEFT_CLAVICLE, LEFT_HIP, PELVIS, RIGHT_HIP, SHOULDERS
+from engine.body.skeleton import HEAD, JOINT_COUNT, LEFT_CLAVICLE, LEFT_HIP, PARENT, PELVIS, RIGHT_HIP, SHOULDERS, Body
 
 # trunk and limbs: a difference between their middles is never greater than that between their joints
 GROUPS = np.array([0] * LEFT_CLAVICLE + [1] * 4 + [2] * 4 + [3] * 4 + [4] * 4)
 GROUP_COUNT = 5
 FEATURES = 6 * GROUP_COUNT
+
+
+def joint_shares(body: Body) -> np.ndarray:
+    """(J,) how much of the body's mass each joint speaks for: half of what hangs on it, half of what it ends.
+
+    A part's own joint says where it begins, the next one where it points; a hand, a foot or a head has but one.
+    """
+    share = np.zeros(JOINT_COUNT)
+    for joint, mass in zip(body.part_joint, body.part_mass_kg, strict=True):
+        ends = np.flatnonzero(np.equal(PARENT, joint))
+        share[joint] += mass if len(ends) == 0 else 0.5 * mass
+        share[ends] += 0.5 * mass / max(len(ends), 1)
+    return share / share.sum()
 
 
 @njit(cache=True)

@@ -73,10 +73,10 @@ def journal_of(simulation: Simulation, folder: Path) -> Journal:
     return new_journal(header, simulation.world)
 
 
-def searched_names(simulation: Simulation) -> list[str] | None:
+def searched_names(simulation: Simulation) -> list[str]:
     """The library's clips by name, so that a replay searches these and not what has been fetched since."""
     searches = any(simulation.world.assets.libraries)
-    return list(library_names(simulation.scenario)) if searches else None
+    return list(library_names(simulation.scenario)) if searches else []
 
 
 def recorder_of(simulation: Simulation, folder: Path) -> Recorder:
@@ -91,6 +91,8 @@ def replayed(journal: Journal, where: str) -> tuple[Simulation, Recorder]:
         scenario, folder, keys, indexes = header["scenario"], Path(header["folder"]), header["clips"], header["indexes"]
     except (KeyError, TypeError) as trouble:
         raise BadInput("recording", f"its header lacks {trouble}", where) from None
+    if not indexes:  # nothing was searched, whatever is here now
+        scenario = {**scenario, "library": []}
     simulation = start(check_scenario(scenario, where), folder)
     assets = simulation.world.assets
     for clip, key in zip(assets.clips, keys, strict=False):

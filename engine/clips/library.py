@@ -28,6 +28,7 @@ class Listed:
     file: str | None = None  # in the folder of fetched clips; None for the embedded one
     frames: tuple[int, int] | None = None  # of the file, if not all of it
     extra: bool = False  # comes only when asked for: its archive is large
+    gets_up: bool = False  # begins lying, ends standing
 
     @property
     def path(self) -> Path | None:
@@ -47,8 +48,8 @@ LIBRARY = (
     # after two seconds he bends down to kneel
     Listed("stand", "standing still, goes round", "stand.bvh", (0, 64)),
     Listed("kneel", "stands, kneels down, stands up again, 15 s", "stand.bvh"),
-    Listed("getup_faceup", "gets up from lying on the back, 4 s", "getup_faceup.json", extra=True),
-    Listed("getup_facedown", "gets up from lying on the front, 3 s", "getup_facedown.json", extra=True),
+    Listed("getup_faceup", "gets up from lying on the back, 4 s", "getup_faceup.json", extra=True, gets_up=True),
+    Listed("getup_facedown", "gets up from lying on the front, 3 s", "getup_facedown.json", extra=True, gets_up=True),
     Listed("punch", "two punches, 2 s", "punch.json", extra=True),
     Listed("kick", "a kick, 1.5 s", "kick.json", extra=True),
     Listed("sway", "standing, shifting weight, breathing; embedded, goes round"),

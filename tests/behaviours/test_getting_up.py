@@ -47,9 +47,11 @@ def own_get_ups(tmp_path_factory):
     return [str(get_up_file(folder, face_down=down)) for down in (False, True)]
 
 
-@pytest.fixture(scope="module")
-def risen(own_get_ups):
-    return played(struck(KNOCKED_DOWN, clip="sway", library=own_get_ups, duration_s=7.0), checked=True)
+@pytest.fixture(scope="module", params=["new", "same"])
+def risen(own_get_ups, request):
+    """Getting up is the only way back to the same motion too."""
+    wish = {"recover": request.param, "library": own_get_ups}
+    return played(struck(KNOCKED_DOWN, clip="sway", duration_s=7.0, **wish), checked=True)
 
 
 def test_somebody_knocked_down_gets_up_and_goes_on_with_their_own_clip(risen):
@@ -63,13 +65,14 @@ def test_somebody_knocked_down_gets_up_and_goes_on_with_their_own_clip(risen):
     assert track.clip[-1] == 0
 
 
-def test_a_get_up_is_deterministic(risen, own_get_ups):
-    again = played(struck(KNOCKED_DOWN, clip="sway", library=own_get_ups, duration_s=7.0))
+def test_a_get_up_is_deterministic(risen):
+    again = played(risen.scenario)
     assert again.world.digest() == risen.world.digest()
 
 
-def test_without_a_get_up_the_body_stays_down_and_it_is_said_once():
-    run = played(struck(KNOCKED_DOWN, clip="sway", library=[], duration_s=5.0))
+@pytest.mark.parametrize("recover", ["new", "same"])
+def test_without_a_get_up_the_body_stays_down_and_it_is_said_once(recover):
+    run = played(struck(KNOCKED_DOWN, clip="sway", library=[], duration_s=5.0, recover=recover))
     assert events(run, "stays_down") == [{"reason": "no motion that gets up"}]
     assert run.report()["metrics"]["recovered_to"] == "down"
     assert phases(run)[-1] == "down"
@@ -95,3 +98,10 @@ def test_real_get_ups(library_clip, azimuth_deg, elevation_deg):
     assert search["clip"].startswith("getup_")
     rose(run, search["clip"])
     assert run.report()["metrics"]["foot_slide_max_m"] < 0.002
+
+
+def test_for_the_same_motion_only_get_ups_are_gathered():
+    """An upright clip of the library is of no use to whoever wants no new motion, and is not even looked for."""
+    same = played(struck(KNOCKED_DOWN, clip="sway", library=["walk", "sway"], duration_s=0.1, recover="same"))
+    assert same.world.assets.libraries == (None,)
+    assert [clip.name for clip in same.world.assets.clips] == ["sway"]

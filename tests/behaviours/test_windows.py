@@ -9,8 +9,7 @@ import pytest
 from scipy.optimize import minimize
 
 from behaviours.components import SAMPLES
-from behaviours.motion_index import joint_shares
-from behaviours.windows import FEATURES, difference, facing, features_into, nearest_of, sample_weight
+from behaviours.windows import FEATURES, difference, facing, features_into, joint_shares, nearest_of, sample_weight
 from engine.body.anthropometry import standard_body
 from engine.body.skeleton import JOINT_COUNT, LEFT_HIP, LEFT_KNEE, MIRRORED
 
