@@ -19,10 +19,12 @@ AHEAD = {"target": "head", "perceived_s": 0.2, "azimuth_deg": 30.0, "elevation_d
 def simulation_of(
     threats=(), clip="sway", find=None, duration_s=2.5, checked=False, observe=True, settings=None, **character: Any
 ):
-    """A simulation of one character, not yet stepped. `clip` is a library name, or a Clip."""
+    """A simulation of one character, not yet stepped. `clip` is a library name, or a Clip. What else is in the library,
+    get-ups perhaps, does not count: a test is to come out the same whatever has been fetched.
+    """
     name = clip if isinstance(clip, str) else clip.name
     scenario = check_scenario({
-        "duration_s": duration_s, "settings": settings or {},
+        "duration_s": duration_s, "settings": settings or {}, "library": [],
         "character": [{"clip": name, "start_s": 0.5, **character}], "threat": list(threats),
     })  # fmt: skip
     find = find or (lambda spec: find_clip(spec.clip) if isinstance(clip, str) else clip)
