@@ -191,6 +191,7 @@ class Residual(Component):
 class Flight(Component):
     """A ball: it flies, spins, bounces on the floor and off people."""
 
+    kind = column(dtype=np.int64)  # row of behaviours.threats.KINDS
     position_m = column(3)
     velocity_mps = column(3)
     spin_radps = column(3)

@@ -147,6 +147,7 @@ def ball(kind: str, make: Make, position_m, velocity_mps, spin_radps=(0.0, 0.0, 
     """A ball of a kind, about to fly."""
     of = KINDS[kind]
     return Flight(
+        kind=list(KINDS).index(kind),
         position_m=position_m,
         velocity_mps=velocity_mps,
         spin_radps=spin_radps,

@@ -19,12 +19,11 @@ from demos.window.help import ACTIONS, draw_help
 from demos.window.keeping import Keeper
 from demos.window.marks import draw_marks
 from demos.window.panels import Panel, Remembering, make_panels
-from demos.window.phases import COLOURS
 from demos.window.plots import draw_plots
 from demos.window.session import Session
+from demos.window.status import draw_offer, draw_status, draw_toasts
 from demos.window.throwing import character_under, throw_speed_mps
 from demos.window.timeline_bar import HEIGHT, TimelineBar
-from engine.core.clock import TICK_RATE_HZ
 from engine.render.camera import Camera, off_centre
 from engine.render.events import CTRL, LEFT_BUTTON, Drop, Event, Key, MouseButton, MouseMove
 from engine.render.scene import FloorStyle, Scene
@@ -136,7 +135,8 @@ class Play:
     def draw(self, ui: Ui) -> None:
         """Everything that lies on the picture."""
         session, view = self.session, self.session.view
-        _draw_status(ui, self)
+        draw_status(ui, self, MARGIN)
+        draw_offer(ui, session, MARGIN)
         bottom = ui.height - MARGIN
         if view.timeline:
             bottom -= TIMELINE_HEIGHT
@@ -151,7 +151,8 @@ class Play:
                 draw_help(ui)
         elif view.panels:
             self._draw_panel(ui, bottom)
-        _draw_toasts(ui, session, view.panels or self.help)
+        taken = PANEL_WIDTH + MARGIN if view.panels or self.help else 0.0
+        draw_toasts(ui, session, ui.width - MARGIN - taken, MARGIN)
 
     def _draw_panel(self, ui: Ui, bottom: float) -> None:
         with ui.area("panels", ui.width - PANEL_WIDTH - MARGIN, MARGIN, PANEL_WIDTH, bottom - MARGIN):
@@ -257,49 +258,6 @@ class Play:
         taken_over(self, {"tab": kept.get("tab")})
         panels = kept.get("panels")
         self._kept = panels if isinstance(panels, dict) else {}
-
-
-def _draw_status(ui: Ui, play: Play) -> None:
-    """One line at the top left: when, what, how fast, what is held."""
-    session = play.session
-    with ui.area("status", MARGIN, MARGIN, 460.0, paper=False, mouse=False):
-        ui.chip(f"{session.tick / TICK_RATE_HZ:.2f} s")
-        ui.beside()
-        ui.chip(session.doing(session.row), COLOURS[session.phase])
-        for words in _states(play):
-            ui.beside()
-            ui.chip(words)
-        if not session.view.panels and not play.help:
-            ui.chip("Tab panels   F1 help   F throw", faint=True)
-
-
-def _states(play: Play) -> list[str]:
-    session, words = play.session, []
-    if session.paused:
-        words.append("paused")
-    elif session.slow_motion.share < 0.95:
-        words.append("slow motion")
-    elif session.clock.rate != 1.0:
-        words.append(f"{session.clock.rate:g} x")
-    if session.tick < session.run.last_tick:
-        words.append("replay")
-    if session.busy:
-        words.append("re-running")
-    if session.filming:
-        words.append("filming")
-    if play.held_s is not None:
-        words.append(f"throw {throw_speed_mps(play.held_s):.0f} m/s")
-    return words
-
-
-def _draw_toasts(ui: Ui, session: Session, taken: bool) -> None:
-    """Lines at the top right, newest last; left of what has taken that place."""
-    if session.toasts.lines:
-        right = ui.width - MARGIN - (PANEL_WIDTH + MARGIN if taken else 0.0)
-        width = min(420.0, right - MARGIN)
-        with ui.area("toasts", right - width, MARGIN, width, mouse=False):
-            for line in session.toasts.lines:
-                ui.text(line.text, alarm=line.alarm)
 
 
 def play_of(

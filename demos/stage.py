@@ -11,6 +11,7 @@ import numpy as np
 
 from behaviours.components import Character, Feet, Flight, Phase, Posture, Reaction, Sustained
 from behaviours.playing import body_of, clip_pose, clip_time_s
+from behaviours.threats import KINDS
 from engine.body.kinematics import com_of, joints_of
 from engine.body.skeleton import Body, Pose
 from engine.body.support import polygon_of, sole_points
@@ -108,12 +109,13 @@ def _ghosts(world, row: int) -> dict[str, tuple[tuple[float, float, float], Pose
 
 
 def _balls(world, alpha: float) -> list[Ball]:
-    f = world[Flight]
+    f, kinds = world[Flight], tuple(KINDS)
     return [
         Ball(
             (1.0 - alpha) * f.before_m[row] + alpha * f.position_m[row],
             float(f.radius_m[row]),
             rotations.slerp(f.before_turned[row], f.turned[row], alpha),
+            kinds[f.kind[row]],
         )
         for row in world.rows(Flight)
     ]

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 
 from demos.figures.meeting import balance_of, posed
@@ -13,7 +15,7 @@ from demos.figures.take import Take, take
 from engine.body.skeleton import Pose
 from engine.body.support import margin_m
 from engine.clips.playback import planted_at
-from engine.render.scene import CLIP_BLUE, RULES_YELLOW, SIMULATED_RED, SUSTAINED_ORANGE, Ball, Scene
+from engine.render.scene import CLIP_BLUE, RULES_YELLOW, SIMULATED_RED, SUSTAINED_ORANGE, Scene
 
 LOOK = Look(-50.0, 18.0)
 PITCH_M = 1.75
@@ -54,9 +56,7 @@ def stages(run: Take, press: Press) -> list[Scene]:
         _stage(run, run.sustained, about, frame.planted, SUSTAINED_ORANGE),
         _stage(run, struck.pose, about, frame.planted, SIMULATED_RED),
     ]
-    scenes[3].balls = [
-        Ball(ball.position_m - np.array([*about, 0.0]), ball.radius_m, ball.orientation) for ball in struck.balls
-    ]
+    scenes[3].balls = [replace(ball, position_m=ball.position_m - np.array([*about, 0.0])) for ball in struck.balls]
     return scenes
 
 

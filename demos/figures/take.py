@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -10,6 +11,7 @@ from behaviours.components import Feet, Flight, Phase, Posture, Reaction, Sustai
 from behaviours.playing import body_of, clip_of, clip_pose, clip_time_s
 from behaviours.scenario import check_scenario
 from behaviours.simulation import Simulation
+from behaviours.threats import KINDS
 from behaviours.timing import TICK_S
 from demos.figures.meeting import balance_of, posed
 from demos.figures.press import Press
@@ -72,8 +74,7 @@ class Take(NamedTuple):
         scene = Scene([posed(self.body, pose, colour)])
         if balls:
             scene.balls = [
-                Ball(np.subtract(ball.position_m, (*about_m[:2], 0.0)), ball.radius_m, ball.orientation)
-                for ball in frame.balls
+                replace(ball, position_m=np.subtract(ball.position_m, (*about_m[:2], 0.0))) for ball in frame.balls
             ]
         if balance:
             scene.balances = [balance_of(self.body, pose, frame.planted, colour)]
@@ -106,7 +107,10 @@ def take(press: Press, scenario: dict[str, Any]) -> Take:
 
 def _frame(world, tick: int) -> Frame:
     p, f = world[Posture], world[Flight]
-    balls = [Ball(f.position_m[k].copy(), float(f.radius_m[k]), f.turned[k].copy()) for k in world.rows(Flight)]
+    balls = [
+        Ball(f.position_m[k].copy(), float(f.radius_m[k]), f.turned[k].copy(), tuple(KINDS)[f.kind[k]])
+        for k in world.rows(Flight)
+    ]
     return Frame(
         tick * TICK_S,
         Phase(int(world[Reaction].phase[0])),

@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple
 
-from engine.clips.library import list_clips
+from engine.clips.library import FETCH_SIZE, list_clips
 from engine.clips.making import FORMATS
 
 if TYPE_CHECKING:
@@ -35,16 +35,18 @@ class ClipsPanel:
         self.search = ui.entry("clip search", self.search, "Search")
         found = [row for row in self._rows(session) if matches(row, self.search)]
         for row in found:
-            if ui.item(row.shown, row.clip == session.character.clip, "" if row.ready else "not fetched"):
-                if row.ready:
-                    session.play_clip(row.clip)
-                else:
-                    session.say(f"{row.clip}: brace clips fetch --extra brings it", alarm=True)
+            if ui.item(row.shown, row.clip == session.character.clip, "" if row.ready else "not here") and row.ready:
+                session.play_clip(row.clip)
             if row.about:
                 ui.text(row.about, faint=True)
         if not found:
             ui.text(f"Nothing is called {self.search!r}.", faint=True)
         ui.gap()
+        if not all(row.ready for row in found):
+            if session.fetching:
+                ui.text("What is not here is being fetched.", faint=True)
+            elif ui.button(f"Fetch what is not here ({FETCH_SIZE})", width=-1.0):
+                session.ask("clips")
         formats = ", ".join(FORMATS)
         ui.text(f"Drop a {formats} file on the window to play it (an .amc needs its .asf beside it).", faint=True)
 

@@ -1,4 +1,6 @@
-"""Doing what was asked to be kept: screenshots, films, scenarios, recordings. Says where it went, or why it did not."""
+"""Doing what was asked to be kept, screenshots, films, scenarios, recordings, or brought: clips. Says where it went, or
+why it did not.
+"""
 
 from __future__ import annotations
 
@@ -7,6 +9,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from demos.window.fetching import Fetching
 from demos.window.film import Film
 from demos.window.saving import free_name, save_replay, save_scenario
 from engine.core.errors import BraceError
@@ -25,6 +28,7 @@ class Keeper:
         self.session = session
         self.film: Film | None = None
         self._finishing: list[Film] = []
+        self._fetching = Fetching()
 
     def keep(self, picture: Picture, passed_s: float) -> None:
         """The picture of this frame is drawn; nothing lies on it yet."""
@@ -39,7 +43,8 @@ class Keeper:
         self._look_after()
 
     def close(self) -> None:
-        """The window goes: films are finished."""
+        """The window goes: films are finished, clips are fetched no further."""
+        self._fetching.stop()
         if self.film:
             self.film.stop()
             self._finishing.append(self.film)
@@ -68,8 +73,18 @@ class Keeper:
             self.film = None
         self.session.filming = self.film is not None
 
+    def _clips(self, picture: Picture) -> None:
+        self._fetching.begin()
+        self.session.fetching = True
+        self.session.say("fetching clips; everything goes on meanwhile")
+
     def _look_after(self) -> None:
-        """Says of films that were ended whether they are there."""
+        """Says of films that were ended, and of clips that were fetched, whether they are there."""
+        said = self._fetching.ended()
+        if said is not None:
+            self.session.fetching = False
+            self.session.say(said or "all clips of the library are here", alarm=bool(said))
+            self.session.change()  # whoever lies there finds them
         for film in [film for film in self._finishing if not film.going]:
             self._finishing.remove(film)
             if film.trouble:

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from behaviours.components import Phase
 from engine.core.clock import TICK_RATE_HZ
 
 if TYPE_CHECKING:
@@ -34,7 +35,9 @@ def draw_plots(ui: Ui, session: Session) -> None:
         for mark in session.run.history.marks
         if mark.row == session.row and mark.kind == "contact" and tick - ticks < mark.tick <= tick
     ]
-    _plot(ui.canvas("margin", HEIGHT + TITLE_HEIGHT), "COM inside the feet", "cm", margin_cm, (-20.0, 15.0), contacts)
+    absent = "lies" if session.phase == Phase.DOWN else "in the air"
+    canvas = ui.canvas("margin", HEIGHT + TITLE_HEIGHT)
+    _plot(canvas, "COM inside the feet", "cm", margin_cm, (-20.0, 15.0), contacts, absent)
     most = max(10.0, float(np.nanmax(head_g, initial=0.0)))
     _plot(ui.canvas("head", HEIGHT + TITLE_HEIGHT), "head acceleration", "g", head_g, (0.0, rounded_up(most)), contacts)
 
@@ -44,13 +47,13 @@ def rounded_up(most: float) -> float:
     return next(step * 10.0**power for power in range(1, 9) for step in (1.0, 2.0, 5.0) if step * 10.0**power >= most)
 
 
-def _plot(canvas: Canvas, title: str, unit: str, values: np.ndarray, ends, contacts: list[float]) -> None:
-    """One curve, newest at the right; nan leaves a gap."""
+def _plot(canvas: Canvas, title: str, unit: str, values: np.ndarray, ends, contacts: list[float], absent="") -> None:
+    """One curve, newest at the right; nan leaves a gap, and `absent` says why there is none now."""
     low, high = ends
     top, bottom = TITLE_HEIGHT, canvas.height - 1.0
     now = values[-1] if len(values) and np.isfinite(values[-1]) else None
     canvas.text(0, 0, title, FAINT)
-    canvas.text(canvas.width, 0, f"{now:.1f} {unit}" if now is not None else "in the air", INK, right=True)
+    canvas.text(canvas.width, 0, f"{now:.1f} {unit}" if now is not None else absent, INK, right=True)
 
     def y_of(value: float) -> float:
         return bottom - (min(max(value, low), high) - low) / (high - low) * (bottom - top)

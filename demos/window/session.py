@@ -63,8 +63,8 @@ class Session:
         self.selected = 0  # which character panels are about
         self.camera, self.size_px, self.cursor_px = Camera(), (1, 1), (0.0, 0.0)
         self.dropped: list[str] = []  # clip files that were brought in
-        self.filming = False
-        self.asked: list[str] = []  # what only the window can do: screenshot, film, scenario, recording
+        self.filming = self.fetching = False
+        self.asked: list[str] = []  # what only the window can do: screenshot, film, scenario, recording, clips
         self._dice = random.Random(scenario.seed)
         self._next_fire = 0
         self._rehearsal = Rehearsal()
@@ -145,7 +145,7 @@ class Session:
         self.toasts.say(text, alarm=alarm)
 
     def ask(self, what: str) -> None:
-        """For a screenshot, a film's start or end, a scenario, a recording: done with the next picture."""
+        """For a screenshot, a film's start or end, a scenario, a recording, clips: done with the next picture."""
         self.asked.append(what)
 
     # --- time ----------------------------------------------------------------------------------------------------

@@ -18,6 +18,8 @@ from engine.clips.making import FORMATS, Wanted, content_key
 from engine.clips.mirror import mirror_clip as mirror_clip
 from engine.core.errors import BadInput, EnvironmentTrouble
 
+FETCH_SIZE = "103 MB"  # of the archive that brings what is `extra`
+
 
 @dataclass(frozen=True)
 class Listed:

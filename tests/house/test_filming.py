@@ -9,11 +9,12 @@ from demos.cli import main
 from demos.commands.capture import columns_for
 from demos.filming import CAMERAS, Moment, Shot, choose, parse_camera, parse_ghosts, parse_size, placed_for
 from demos.frames import frames_of, slowed_frames_of
-from demos.stage import floor_under
+from demos.stage import floor_under, scene_of
 from engine.body.anthropometry import standard_body
 from engine.core.clock import TICK_RATE_HZ
 from engine.core.errors import BadInput
 from engine.render.scene import Figure, Scene
+from tests.behaviours.runs import AHEAD, run
 
 SMALL = ("--set", "duration_s=0.5", "--size", "64x48", "--fps", "12")
 
@@ -205,3 +206,9 @@ def test_a_span_with_nothing_in_it_is_one_line(capsys, tmp_path):
 def test_a_strip_is_not_slowed(capsys):
     assert main(["capture", "sway", "--slow", "-o", "strip.png"]) == 2
     assert one_line(capsys).startswith("error[usage]: --slow")
+
+
+@pytest.mark.parametrize("kind", ["volleyball", "custom"])
+def test_a_ball_is_drawn_as_what_it_is(kind):
+    simulation = run(threats=[{**AHEAD, "kind": kind, "perceived_s": 0.1}], duration_s=0.3)
+    assert [ball.kind for ball in scene_of(simulation.world).balls] == [kind]

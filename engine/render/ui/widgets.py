@@ -138,11 +138,12 @@ class Ui:
     def button(self, label: str, *, enabled: bool = True, chosen: bool = False, help: str = "", width: float = 0.0):
         """True in the frame in which it is clicked. width: 0 as the label needs it, -1 all there is."""
         imgui.begin_disabled(not enabled)
-        if chosen:
+        if chosen:  # also under the cursor, where it was clicked
             imgui.push_style_color(imgui.Col_.button, style.ACCENT_LIGHT)
+            imgui.push_style_color(imgui.Col_.button_hovered, style.ACCENT_LIGHT)
         clicked = imgui.button(label, (width, 0.0))
         if chosen:
-            imgui.pop_style_color()
+            imgui.pop_style_color(2)
         imgui.end_disabled()
         self._hint(help)
         return clicked
