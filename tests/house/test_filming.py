@@ -199,7 +199,7 @@ def test_a_film_slows_about_the_blow_and_nowhere_else(brace, tmp_path):
 def test_a_span_with_nothing_in_it_is_one_line(capsys, tmp_path):
     words = ["capture", "sway", *SMALL, "--from", "3", "-o", str(tmp_path / "a.gif")]
     assert main(words) == 2
-    assert one_line(capsys).startswith("error[no-frames]")
+    assert one_line(capsys).startswith("error[usage]: nothing lies from 3 to 0.5 s")
     assert not list(tmp_path.iterdir())
 
 
