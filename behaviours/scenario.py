@@ -15,6 +15,7 @@ from typing import Annotated, Any, Literal
 
 from pydantic import AfterValidator, BaseModel, ConfigDict, Field, ValidationError, field_validator, model_validator
 
+from behaviours.settings import Settings
 from behaviours.threats import KINDS
 from engine.body.skeleton import JOINTS
 from engine.core.errors import BadInput
@@ -302,9 +303,13 @@ def _line_of(text: str, keys: list[str]) -> int | None:
 
 
 def _override(raw: dict[str, Any], text: str) -> None:
-    """Sets one `a.0.b=value` in the raw data; the value is read as TOML, else taken as a plain word."""
+    """Sets one `a.0.b=value` in the raw data; the value is read as TOML, else taken as a plain word. A constant may be
+    named without its `settings.`, as everywhere else.
+    """
     dotted, equals, value_text = text.partition("=")
     keys = dotted.strip().split(".")
+    if keys[0] in Settings._fields:
+        keys.insert(0, "settings")
     if not equals or not all(keys):
         raise BadInput("set", f"{text!r} is not of the form key=value, for instance threat.0.speed_mps=28")
     try:

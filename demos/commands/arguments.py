@@ -41,7 +41,8 @@ def add_scenario(parser: argparse.ArgumentParser, default: str | None = None) ->
     )  # fmt: skip
     parser.add_argument(
         "--set", action="append", default=[], metavar="KEY=VALUE",
-        help="changes one value of the scenario, such as threat.0.speed_mps=28; may be repeated",
+        help="changes one value of the scenario, such as threat.0.speed_mps=28, or one constant of the model, such as "
+        "block.offset_m=0.1; may be repeated",
     )  # fmt: skip
 
 

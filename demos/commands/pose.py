@@ -132,10 +132,11 @@ def _override(text: str) -> tuple[str, Any]:
     name, equals, value = text.partition("=")
     if not (name.strip() and equals):
         raise BadInput("set", f"{text!r} is not of the form key=value, for instance balance.brace_m=0.05")
+    constant = name.strip().removeprefix("settings.")  # as a scenario calls it
     try:
-        return name.strip(), tomllib.loads(f"v = {value}")["v"]
+        return constant, tomllib.loads(f"v = {value}")["v"]
     except tomllib.TOMLDecodeError:
-        return name.strip(), value.strip()
+        return constant, value.strip()
 
 
 def _clip(args: argparse.Namespace):

@@ -8,7 +8,7 @@ import pytest
 
 from behaviours.scenario import check_scenario
 from behaviours.stance.shape_sets import SETS
-from demos import crowd, gauntlet, rewind, stances, volleyball
+from demos import crowd, gauntlet, own_loop, rewind, stances, volleyball
 from demos.cli import main
 from demos.running import open_scenario
 from demos.scenarios import PROGRAMS, names
@@ -74,6 +74,14 @@ def test_rewind_comes_back_to_the_same_and_goes_elsewhere(capsys):
     )
     assert len(once) >= 1
     assert len(otherwise) > len(once)
+
+
+def test_a_loop_of_ones_own_throws_a_ball_and_takes_it_back(capsys):
+    own_loop.main()
+    thrown, undone = capsys.readouterr().out.split("rewound")
+    assert "respond" in thrown
+    assert "startle" not in undone
+    assert undone.count(" play ") == undone.count("frame ") > 0
 
 
 @pytest.mark.parametrize(

@@ -7,6 +7,7 @@ import pytest
 
 from behaviours import library
 from behaviours.scenario import Scenario
+from behaviours.settings import Settings
 from demos.cli import main
 from engine.clips.library import Listed
 from engine.core.journal_file import load_journal, save_journal
@@ -164,3 +165,13 @@ def test_get_ups_that_were_fetched_since_do_not_count_in_a_replay(recording, mon
     monkeypatch.setattr(library, "list_clips", lambda: fetched)
     assert library.get_up_names(Scenario()) == ("rises",)
     assert main(["replay", str(recording), "--check"]) == 0
+
+
+def test_a_constant_is_named_with_or_without_its_section(capsys):
+    plain = report(capsys, "--set", "block.offset_m=0.15")
+    assert plain["digest"] == report(capsys, "--set", "settings.block.offset_m=0.15")["digest"]
+    assert plain["digest"] != report(capsys)["digest"]
+
+
+def test_constants_and_keys_of_a_scenario_have_different_names():
+    assert not set(Settings._fields) & set(Scenario.model_fields)
