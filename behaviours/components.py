@@ -81,6 +81,7 @@ class Blend(Component):
     to_rotations = column(JOINT_COUNT, 4)
     since = column(dtype=np.int64)
     ticks = column()  # how long it lasts; not whole, since slack stretches it
+    lands = column(dtype=np.int64)  # up to this tick of protection the first end flies on as the clip does, then lands
     support = column(dtype=np.int64)  # the primary support foot: side 0 or 1, or NOBODY: both ends lie
     modes = column(2, dtype=np.int64)  # left, right: how the arms go, see `behaviours.arm_ways`,
     bends = column(2, 2, 4)  # and how far their ways are bent, radians

@@ -16,7 +16,7 @@ from behaviours.components import NOBODY, Blend, Feet, Phase, Playback, Posture,
 from behaviours.playing import body_of, clip_pose, clip_time_s
 from behaviours.seams import MOMENT
 from behaviours.settling import settled_pose
-from behaviours.sources import blended, simulated_pose
+from behaviours.sources import blend_ends, blended, simulated_pose
 from behaviours.timing import TICK_S, whole_ticks
 from engine.body.kinematics import com_of, joints_of
 from engine.body.skeleton import ELBOWS, SHOULDERS, WRISTS, Body, Pose
@@ -139,11 +139,11 @@ def _poses_made_from(world, row: int) -> list[Pose]:
 def _line(world, row: int, tick: int, body: Body) -> Line:
     b = world[Blend]
     source, led_m = blended(world, row, tick)
-    ends = (Pose(b.from_root_m[row], b.from_rotations[row]), Pose(b.to_root_m[row], b.to_rotations[row]))
+    ends = blend_ends(world, row, tick)
     joints_m = joints_of(body, source)[0]
-    start_m, end_m = (joints_of(body, end)[0] for end in ends)
+    start_m, end_m = (end.positions for end in ends)
     left, right = (way_of(body, side, b.modes[row, side], led_m[side], joints_m) for side in range(2))
-    coms_m = (com_of(body, ends[0]), com_of(body, ends[1]))
+    coms_m = (np.array(ends[0].com_m), np.array(ends[1].com_m))
     return Line(tick, joints_m, start_m, end_m, (left, right), com_of(body, source), coms_m)
 
 

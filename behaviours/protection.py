@@ -69,15 +69,22 @@ def look_ahead(world, row: int, clip_s: float, ttc_s: float) -> tuple[Pose, np.n
 
     With a foot on the ground: the clip 1/6 s on. In flight: the landing, if it comes within the time to contact.
     """
+    flies = flight_ticks(world, row, clip_s, ttc_s)
+    if flies:
+        landing_s = clip_s + flies * TICK_S
+        return clip_pose(world, row, landing_s), planted_in_clip(world, row, landing_s), True
     ahead_s = world.assets.settings.timing.sustained_ahead_s
-    planted = planted_in_clip(world, row, clip_s)
-    if not planted.any():
-        for k in range(1, int(ttc_s / TICK_S)):
-            landing_s = clip_s + k * TICK_S
-            there = planted_in_clip(world, row, landing_s)
-            if there.any():
-                return clip_pose(world, row, landing_s), there, True
-    return clip_pose(world, row, clip_s + ahead_s), planted, False
+    return clip_pose(world, row, clip_s + ahead_s), planted_in_clip(world, row, clip_s), False
+
+
+def flight_ticks(world, row: int, clip_s: float, ttc_s: float) -> int:
+    """How long it is to the clip's next landing; 0 for a foot on the ground, or no landing within the time to
+    contact.
+    """
+    for k in range(int(ttc_s / TICK_S)):
+        if planted_in_clip(world, row, clip_s + k * TICK_S).any():
+            return k
+    return 0
 
 
 class Defence(NamedTuple):

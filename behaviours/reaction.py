@@ -31,27 +31,27 @@ from behaviours.components import (
     Threat,
 )
 from behaviours.falling import begin_falling
+from behaviours.footwork import land, step_into
 from behaviours.held_feet import hold_feet, knees_between, leg_lengths
 from behaviours.knocked_down import has_fallen, response_is_over
-from behaviours.playing import body_of, capsules_of, clip_pose, perception_clip_s, planted_in_clip
-from behaviours.protection import perceived_threat, protect_from
+from behaviours.playing import body_of, capsules_of, clip_pose, clip_time_s, perception_clip_s, planted_in_clip
+from behaviours.protection import flight_ticks, perceived_threat, protect_from
 from behaviours.recovery import begin_recovery, begin_return, resume_clip
 from behaviours.rules.startle import startle_pose
 from behaviours.search import choose_return
 from behaviours.settling import settled_pose
-from behaviours.sources import choose_hand_ways, foot_goals, source_pose
-from behaviours.startled import within_reach
+from behaviours.sources import BLENDING, choose_hand_ways, foot_goals, source_pose
+from behaviours.startled import lift_out_of_floor, within_reach
 from behaviours.sustained import Case
 from behaviours.timing import TICK_S, time_to_contact_s, whole_ticks
 from engine.body.kinematics import com_of, joints_of
-from engine.body.skeleton import ANKLES, KNEES, Pose
+from engine.body.skeleton import ANKLES, HIPS, KNEES, WAIST, Pose
 from engine.core.schedule import Stage, system
 
 BUSY = (Phase.STARTLE, Phase.PROTECT, Phase.RESPOND, Phase.RECOVER_BLEND, Phase.DOWN, Phase.STOPPED)
 STATE = (
     Blend, Blow, Character, Feet, Flight, Playback, Posture, Ragdoll, Reaction, Residual, Struck, Sustained, Threat,
 )  # fmt: skip
-STEP_SHARE = 0.9  # of the time to contact: a foot stands before the blow comes
 
 
 def enter(world, row: int, tick: int, phase: Phase) -> None:
@@ -77,8 +77,8 @@ def keep_continuous(world, row: int, tick: int, shown_before: Pose) -> None:
     seams.begin_seam(world, row, tick, body_of(world, row), shown_before, source)
 
 
-def begin_blend(world, row: int, tick: int, start: Pose, end: Pose, ticks: float) -> None:
-    """Sets the two ends of a blend that left its first end at the last tick."""
+def set_blend(world, row: int, tick: int, start: Pose, end: Pose, ticks: float) -> None:
+    """Sets the two ends of a blend that left its first end at the last tick; how the hands go is yet to be chosen."""
     b, f = world[Blend], world[Feet]
     b.from_root_m[row], b.from_rotations[row] = start
     b.to_root_m[row], b.to_rotations[row] = end
@@ -86,7 +86,6 @@ def begin_blend(world, row: int, tick: int, start: Pose, end: Pose, ticks: float
     body = body_of(world, row)
     positions, _ = joints_of(body, start)
     b.support[row] = primary_support(f.planted[row], positions[list(ANKLES)], com_of(body, start))
-    choose_hand_ways(world, row)
 
 
 def begin_startle(world, row: int, tick: int, threat_row: int) -> None:
@@ -96,21 +95,21 @@ def begin_startle(world, row: int, tick: int, threat_row: int) -> None:
     settings = world.assets.settings
     old = moment_before(world, row, tick)
     now, _ = seams.shown(world, row)
-    ahead_s = world[Reaction].clip_s[row] + settings.timing.startle_ahead_s
-    ahead = clip_pose(world, row, ahead_s)
+    ahead = clip_pose(world, row, world[Reaction].clip_s[row] + settings.timing.startle_ahead_s)
     toward = -world[Threat].travel[threat_row]
     body = body_of(world, row)
     startled = startle_pose(body, ahead, toward, settings)
-    plant_standing_feet(world, row, tick)
+    plant_standing_feet(world, row, world[Reaction].clip_s[row])
     startled = within_reach(body, now, ahead, startled, lambda pose: standing_in(world, row, tick, pose))
-    begin_blend(world, row, tick, now, startled, float(whole_ticks(settings.timing.startle_s)))
+    set_blend(world, row, tick, now, startled, float(whole_ticks(settings.timing.startle_s)))
+    choose_hand_ways(world, row)
     enter(world, row, tick, Phase.STARTLE)
     keep_continuous(world, row, tick, old)
 
 
 def standing_in(world, row: int, tick: int, pose: Pose) -> Pose:
-    """The pose with the held feet where they are held, the pelvis lowered as far as that takes: an end that can be
-    reached.
+    """The pose with the held feet where they are held, the pelvis lowered as far as that takes, the others above the
+    floor: an end that can be reached.
     """
     body = body_of(world, row)
     end = blend_end(body, capsules_of(world, row), *pose)
@@ -118,13 +117,13 @@ def standing_in(world, row: int, tick: int, pose: Pose) -> Pose:
     knees = knees_between(end, end, False, end.positions[list(KNEES)])
     own = leg_lengths(end.positions)
     hold_feet(body, goals, own, knees, 0.0, end.root_m, end.rotations, end.positions, end.orientations)
-    return Pose(end.root_m, end.rotations)
+    return lift_out_of_floor(body, Pose(end.root_m, end.rotations), ~goals.bound)
 
 
-def plant_standing_feet(world, row: int, tick: int) -> None:
+def plant_standing_feet(world, row: int, clip_s: float) -> None:
     """The feet that stand in the clip are held where they are shown; the others go with the pose."""
     f, body, now = world[Feet], body_of(world, row), seams.shown(world, row)[0]
-    standing = planted_in_clip(world, row, world[Reaction].clip_s[row])
+    standing = planted_in_clip(world, row, clip_s)
     for side in range(2):
         if standing[side]:
             foot_plan.hold(f, row, side, foot_plan.footing_of(body, now, side))
@@ -136,13 +135,56 @@ def begin_protecting(world, row: int, tick: int) -> None:
     """The blend to the sustained pose, stretched by the slack so that it is never reached early (4.2)."""
     settings, s = world.assets.settings, world[Sustained]
     old = moment_before(world, row, tick)
-    now, _ = seams.shown(world, row)
+    now, lands = where_from(world, row, tick)
     sustained = Pose(s.root_m[row].copy(), s.rotations[row].copy())
     takes = protecting_ticks(world, row, tick)
-    plan_steps(world, row, tick, sustained, STEP_SHARE * takes)
-    begin_blend(world, row, tick, now, sustained, takes * (1.0 + settings.timing.slack_share))
+    set_blend(world, row, tick, now, sustained, takes * (1.0 + settings.timing.slack_share))
+    world[Blend].lands[row] = lands
+    if lands > tick:
+        fly_on(world, row, lands)
+    else:
+        step_into(world, row, tick, now, sustained, takes)
     enter(world, row, tick, Phase.PROTECT)
     keep_continuous(world, row, tick, old)
+
+
+def fly_on(world, row: int, lands: int) -> None:
+    """Nobody hovers until the ball comes: who is in the air flies and lands as in the clip, and makes for the sustained
+    pose meanwhile. The foot that will land supports.
+    """
+    b, body = world[Blend], body_of(world, row)
+    for side in range(2):
+        foot_plan.let_go(world[Feet], row, side)
+    first = Pose(b.from_root_m[row], b.from_rotations[row])
+    ankles = joints_of(body, first)[0][list(ANKLES)]
+    standing = planted_in_clip(world, row, clip_time_s(world, row, lands))
+    b.support[row] = primary_support(standing, ankles, com_of(body, first))
+    choose_hand_ways(world, row)
+
+
+def touch_down(world, row: int, tick: int) -> None:
+    """A flight that was begun in is over: from here on the feet are planned."""
+    old, s = moment_before(world, row, tick), world[Sustained]
+    sustained = Pose(s.root_m[row].copy(), s.rotations[row].copy())
+    land(world, row, tick, source_pose(world, row, tick - 1), sustained, protecting_ticks(world, row, tick))
+    keep_continuous(world, row, tick, old)
+
+
+def where_from(world, row: int, tick: int) -> tuple[Pose, int]:
+    """What the blend to the sustained pose leaves, and the tick at which that lands; 0 for a foot on the ground.
+
+    It is what is shown, on the pelvis and legs of the present blend, so that feet are where they are held: what a seam
+    has left over there goes on by itself. Or, in flight, it is the clip where it lands.
+    """
+    r, now = world[Reaction], seams.shown(world, row)[0]
+    if r.phase[row] in BLENDING:
+        source = source_pose(world, row, tick - 1)
+        source.rotations[WAIST : HIPS[0]] = now.rotations[WAIST : HIPS[0]]
+        return source, 0
+    flies = flight_ticks(world, row, float(r.clip_s[row]), (r.contact[row] - tick) * TICK_S)
+    if flies == 0 or r.phase[row] != Phase.PLAY:
+        return now, 0
+    return clip_pose(world, row, clip_time_s(world, row, tick + flies)), tick + flies
 
 
 def protecting_ticks(world, row: int, tick: int) -> float:
@@ -158,22 +200,10 @@ def protecting_ticks(world, row: int, tick: int) -> float:
     return float(min(left, max(1, from_ahead - (tick - int(r.perceived[row])))))
 
 
-def plan_steps(world, row: int, tick: int, to: Pose, ticks: float) -> None:
-    """Each foot is held where it is, or steps to where the pose has it."""
-    body, f, now = body_of(world, row), world[Feet], seams.shown(world, row)[0]
-    for side in range(2):
-        start, end = foot_plan.footing_of(body, now, side), foot_plan.footing_of(body, to, side)
-        if not world[Sustained].held[row, side]:
-            foot_plan.let_go(f, row, side)
-        else:
-            foot_plan.hold_or_step(f, row, side, start, end, tick - 1, ticks, world.assets.settings.balance)
-
-
 @system(Stage.DECIDE, reads=STATE, writes=STATE)
 def notice(world, tick):
     """Whoever perceives a threat now works out the pose to meet it in, and startles or begins to protect (3, 4.2)."""
     threats, r, c = world[Threat], world[Reaction], world[Character]
-    settings = world.assets.settings
     for threat_row in world.rows(Threat, Flight):
         if not threats.noticed[threat_row] or threats.taken_up[threat_row]:
             continue
@@ -189,21 +219,28 @@ def notice(world, tick):
         r.struck[row], r.flinches[row] = False, False
         r.clip_s[row] = perception_clip_s(world, row, tick)
         ttc_s = (r.contact[row] - tick) * TICK_S
-        left_s = ttc_s - settings.timing.startle_s
-        startle = bool(c.startle[row]) and left_s >= settings.startle.least_sustained_s
+        flies = r.phase[row] == Phase.PLAY and flight_ticks(world, row, float(r.clip_s[row]), ttc_s) > 0
+        startle = "off" if not c.startle[row] else "in the air" if flies else startles(world, ttc_s)
         protect_from(world, row, perceived_threat(world, row, threat_row))
         world.emit(
             "perceived",
             world.entity(row),
             threat=int(r.threat[row]),
             ttc_s=ttc_s,
-            startle="taken" if startle else ("too late" if c.startle[row] else "off"),
+            startle=startle,
             case=Case(int(world[Sustained].case[row])).name.lower(),
         )
-        if startle:
+        if startle == "taken":
             begin_startle(world, row, tick, threat_row)
         else:
             begin_protecting(world, row, tick)
+
+
+def startles(world, ttc_s: float) -> str:
+    """Whether there is the time for a startle before the sustained pose (3.2.6)."""
+    settings = world.assets.settings
+    left_s = ttc_s - settings.timing.startle_s
+    return "taken" if left_s >= settings.startle.least_sustained_s else "too late"
 
 
 @system(Stage.DECIDE, reads=STATE, writes=STATE)
@@ -217,7 +254,9 @@ def advance_reactions(world, tick):
                 end_flinch(world, row, tick)
             else:
                 begin_protecting(world, row, tick)
-        elif phase == Phase.PROTECT and (tick > r.contact[row] + MISS_TICKS or is_off(world, row)):
+        elif phase == Phase.PROTECT and tick == world[Blend].lands[row] + 1:
+            touch_down(world, row, tick)
+        elif phase == Phase.PROTECT and tick > world[Blend].lands[row] and gives_up(world, row, tick):
             world.emit("missed", world.entity(row), threat=int(r.threat[row]))
             enter(world, row, tick, Phase.HOLD)
         elif phase == Phase.HOLD and lasted >= whole_ticks(settings.recovery.hold_s):
@@ -238,6 +277,11 @@ def advance_reactions(world, tick):
             enter(world, row, tick, Phase.PLAY)
             keep_continuous(world, row, tick, old)
             r.threat[row] = NOBODY
+
+
+def gives_up(world, row: int, tick: int) -> bool:
+    """Whether nothing has come, or will come any more."""
+    return bool(tick > world[Reaction].contact[row] + MISS_TICKS) or is_off(world, row)
 
 
 def is_off(world, row: int) -> bool:

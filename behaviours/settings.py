@@ -136,6 +136,9 @@ class Balance(NamedTuple):
     ] = 0.06
     lift_over_m: Annotated[float, Constant("m", "A4", "a foot that moves farther is lifted on an arc")] = 0.03
     lift_height_m: Annotated[float, Constant("m", "A4", "height of that arc")] = 0.05
+    step_s: Annotated[
+        float, Constant("s", "A4", "a step takes this long where legs reach: nobody waits on one leg")
+    ] = 0.4
     limit_margin_rad: Annotated[
         float, Constant("rad", "A", "hips, ankles and shoulders keep this far inside their limits")
     ] = radians(0.5)

@@ -64,18 +64,23 @@ def blended(world, row: int, tick: float) -> tuple[Pose, tuple[float, float]]:
         after_s = float(tick - world[Blend].since[row] - world[Blend].ticks[row]) * TICK_S
         s = world.assets.settings.blend
         weight += overshoot(after_s, s.overshoot_share, s.overshoot_period_s, s.overshoot_half_life_s)
-    start, end = blend_ends(world, row)
+    start, end = blend_ends(world, row, tick)
     least = world.assets.settings.blend.knee_rule == "least"
     knees = knees_between(start, end, least, world[Blend].knees_m[row])
     return between(world, row, tick, start, end, weight, ways_of(world[Blend], row), knees)
 
 
-def blend_ends(world, row: int) -> tuple[BlendEnd, BlendEnd]:
-    """The two still ends of the present blend."""
+def blend_ends(world, row: int, tick: float) -> tuple[BlendEnd, BlendEnd]:
+    """The two ends of the present blend, as they are at a tick: still, but for somebody who protects in flight, whose
+    first end flies on as the clip does until it lands.
+    """
     b = world[Blend]
     body, shape = body_of(world, row), capsules_of(world, row)
+    first = Pose(b.from_root_m[row].copy(), b.from_rotations[row].copy())
+    if world[Reaction].phase[row] == Phase.PROTECT and tick < b.lands[row]:
+        first = clip_pose(world, row, clip_time_s(world, row, tick))
     return (
-        blend_end(body, shape, b.from_root_m[row].copy(), b.from_rotations[row].copy()),
+        blend_end(body, shape, first.root_m, first.rotations),
         blend_end(body, shape, b.to_root_m[row].copy(), b.to_rotations[row].copy()),
     )
 
@@ -125,7 +130,7 @@ def choose_hand_ways(world, row: int) -> None:
     b.knees_m[row] = joints_of(body, Pose(b.from_root_m[row], b.from_rotations[row]))[0][list(KNEES)]
     if b.support[row] == NOBODY:
         return  # both ends lie
-    start, end = blend_ends(world, row)
+    start, end = blend_ends(world, row, b.since[row])
     progress = np.linspace(0.0, 1.0, MOMENTS)
     between_them = [
         between(

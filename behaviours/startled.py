@@ -11,8 +11,11 @@ from collections.abc import Callable
 import numpy as np
 
 from behaviours.overlap import overlaps_m
+from engine.body import support
+from engine.body.kinematics import joints_of
+from engine.body.limb_ik import KEEP, apply_leg
 from engine.body.limits import excess_rad
-from engine.body.skeleton import CLAVICLES, ELBOWS, HIPS, JOINT_COUNT, PELVIS, SHOULDERS, WRISTS, Body, Pose
+from engine.body.skeleton import ANKLES, CLAVICLES, ELBOWS, HIPS, JOINT_COUNT, PELVIS, SHOULDERS, WRISTS, Body, Pose
 from engine.maths import quaternion
 
 SHARES = np.linspace(1.0, 0.0, 6)
@@ -38,6 +41,21 @@ def within_reach(body: Body, now: Pose, ahead: Pose, startled: Pose, stand: Call
         if (excess_rad(body, stood.rotations)[HIPS[0] :] - own).max() < TOLERATED_RAD:
             break
     return stood
+
+
+def lift_out_of_floor(body: Body, pose: Pose, swings) -> Pose:
+    """The pose with the feet that swing (2,) no lower than the floor: a pelvis that stays behind, or has sunk for the
+    other foot, would put them under it.
+    """
+    positions, orientations = joints_of(body, pose)
+    rotations = pose.rotations.copy()
+    for side in range(2):
+        under_m = -float(support.sole_points(body, positions, orientations)[side, :, 2].min())
+        if swings[side] and under_m > 0.0:
+            ankle = positions[ANKLES[side]] + [0.0, 0.0, under_m]
+            turned = orientations[ANKLES[side]].copy()
+            apply_leg(body, rotations, positions, orientations, side, ankle, turned, KEEP)
+    return Pose(pose.root_m, rotations)
 
 
 def clear_of_body(body: Body, now: Pose, ahead: Pose, startled: Pose) -> Pose:
