@@ -12,8 +12,9 @@ import zipfile
 import pytest
 
 from engine.clips import fetching
-from engine.clips.fetching import EXTRA_SOURCES, SOURCES, Member, Refused, Source, clip_folder, fetch, is_here
+from engine.clips.fetching import Refused, clip_folder, fetch, is_here
 from engine.clips.library import LIBRARY
+from engine.clips.sources import EXTRA_SOURCES, SOURCES, Member, Source
 from engine.core.errors import EnvironmentTrouble
 
 MOTION = b"a motion, byte for byte\r\n"

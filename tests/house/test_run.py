@@ -11,7 +11,7 @@ import pytest
 from tests.conftest import ROOT
 
 SHELLS = [shell for shell in ("dash", "bash", "sh") if shutil.which(shell)]
-FILES = ("run", "requirements.lock", "requirements-dev.lock", "engine/clips/fetching.py")
+FILES = ("run", "requirements.lock", "requirements-dev.lock", "engine/clips/sources.py")
 
 # answers as much of Python as the script asks for; says what it was called with
 STAND_IN = """#!/bin/sh
