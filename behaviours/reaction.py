@@ -40,7 +40,7 @@ from behaviours.recovery import begin_recovery, begin_return, resume_clip
 from behaviours.rules.startle import startle_pose
 from behaviours.search import choose_return
 from behaviours.settling import settled_pose
-from behaviours.sources import BLENDING, choose_hand_ways, foot_goals, source_pose
+from behaviours.sources import BLENDING, choose_hand_ways, flying, foot_goals, source_pose
 from behaviours.startled import lift_out_of_floor, within_reach
 from behaviours.sustained import Case
 from behaviours.timing import TICK_S, time_to_contact_s, whole_ticks
@@ -174,7 +174,7 @@ def where_from(world, row: int, tick: int) -> tuple[Pose, int]:
     """What the blend to the sustained pose leaves, and the tick at which that lands; 0 for a foot on the ground.
 
     It is what is shown, on the pelvis and legs of the present blend, so that feet are where they are held: what a seam
-    has left over there goes on by itself. Or, in flight, it is the clip where it lands.
+    has left over there goes on by itself. Or, in flight, on those of the clip where it lands.
     """
     r, now = world[Reaction], seams.shown(world, row)[0]
     if r.phase[row] in BLENDING:
@@ -184,7 +184,7 @@ def where_from(world, row: int, tick: int) -> tuple[Pose, int]:
     flies = flight_ticks(world, row, float(r.clip_s[row]), (r.contact[row] - tick) * TICK_S)
     if flies == 0 or r.phase[row] != Phase.PLAY:
         return now, 0
-    return clip_pose(world, row, clip_time_s(world, row, tick + flies)), tick + flies
+    return flying(world, row, tick + flies, now), tick + flies
 
 
 def protecting_ticks(world, row: int, tick: int) -> float:

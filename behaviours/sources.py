@@ -19,7 +19,7 @@ from behaviours.lying import blend_lying
 from behaviours.playing import body_of, capsules_of, clip_pose, clip_time_s
 from behaviours.timing import TICK_S, ease, overshoot, whole_ticks
 from engine.body.kinematics import joints_of
-from engine.body.skeleton import ANKLES, JOINT_COUNT, KNEES, TOES, Pose
+from engine.body.skeleton import ANKLES, HIPS, JOINT_COUNT, KNEES, TOES, WAIST, Pose
 from engine.physics import ragdoll
 
 ANKLE_ROWS, TOE_ROWS = list(ANKLES), list(TOES)
@@ -72,17 +72,24 @@ def blended(world, row: int, tick: float) -> tuple[Pose, tuple[float, float]]:
 
 def blend_ends(world, row: int, tick: float) -> tuple[BlendEnd, BlendEnd]:
     """The two ends of the present blend, as they are at a tick: still, but for somebody who protects in flight, whose
-    first end flies on as the clip does until it lands.
+    first end flies on until it lands.
     """
     b = world[Blend]
     body, shape = body_of(world, row), capsules_of(world, row)
     first = Pose(b.from_root_m[row].copy(), b.from_rotations[row].copy())
     if world[Reaction].phase[row] == Phase.PROTECT and tick < b.lands[row]:
-        first = clip_pose(world, row, clip_time_s(world, row, tick))
+        first = flying(world, row, tick, first)
     return (
         blend_end(body, shape, first.root_m, first.rotations),
         blend_end(body, shape, b.to_root_m[row].copy(), b.to_rotations[row].copy()),
     )
+
+
+def flying(world, row: int, tick: float, pose: Pose) -> Pose:
+    """A pose on the pelvis and legs that the clip has at a tick, if it plays on."""
+    on = clip_pose(world, row, clip_time_s(world, row, tick))
+    on.rotations[WAIST : HIPS[0]] = pose.rotations[WAIST : HIPS[0]]
+    return on
 
 
 def ways_of(blend, row: int) -> HandWays:
