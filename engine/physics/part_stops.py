@@ -19,6 +19,7 @@ from engine.physics.tracking import world_frames
 NEAR_MPS = 0.05  # a bound that is met by less than this may be broken by the impulses of others: it is kept in view
 CREEP_MPS = 0.02
 FARTHEST_M = 0.15  # nothing within a body closes faster than this in `stops.EASE_S`
+FLESH_M = 0.004  # what gives between two parts that are thrown together, of the soft tissue on both, before it is hard
 LEAST_APART_M = 1e-6  # of two axes: nearer than this, there is no saying which way is out
 TOUCHING_M = 0.01  # what a blow closes at once: this counts as touching
 
@@ -79,7 +80,7 @@ def depths_into(parent, offset_m, rotations, capsules, pairs, out):
 
 
 @njit(cache=True)
-def parts_into(parent, offset_m, capsules, pairs, qpos, qvel, ease_s, limp, farthest_m, rows, least, count):
+def parts_into(parent, offset_m, capsules, pairs, qpos, qvel, ease_s, h, limp, farthest_m, rows, least, count):
     """Adds the rows and bounds of the pairs nearer than farthest_m that close too fast, or nearly so; how many now."""
     positions, orientations = world_frames(parent, offset_m, qpos)
     ends = capsules_at(capsules, positions, orientations)
@@ -95,12 +96,22 @@ def parts_into(parent, offset_m, capsules, pairs, qpos, qvel, ease_s, limp, fart
         row = rows[count]
         _add_place(parent, positions, orientations, capsules.joint[a], on_a, normal, 1.0, row)
         _add_place(parent, positions, orientations, capsules.joint[b], on_b, normal, -1.0, row)
-        least[count] = -max(gap_m, 0.0) / ease_s - limp * CREEP_MPS
-        if rate_of(row, qvel) < least[count] + NEAR_MPS:
+        rate_mps = rate_of(row, qvel)
+        least[count] = -may_close_mps(gap_m, -rate_mps, ease_s, h) - limp * CREEP_MPS
+        if rate_mps < least[count] + NEAR_MPS:
             count += 1
         else:
             row[:] = 0.0
     return count
+
+
+@njit(cache=True)
+def may_close_mps(gap_m, closing_mps, ease_s, h):
+    """How fast two parts may close: as stops have it, or, faster than that, braked evenly within gap and flesh."""
+    cap_mps, left_m = max(gap_m, 0.0) / ease_s, gap_m + FLESH_M
+    if closing_mps <= cap_mps or left_m <= 0.0:
+        return cap_mps
+    return max(cap_mps, closing_mps * (1.0 - 0.5 * closing_mps * h / left_m))
 
 
 @njit(cache=True)

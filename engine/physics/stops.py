@@ -44,7 +44,7 @@ def hold(model, qpos_before: np.ndarray, target: np.ndarray, limp: float, h: flo
     rows, least = np.zeros((MOST_ROWS, m.nv)), np.empty(MOST_ROWS)
     count = find(
         PARENT, body.offset_m, body.limit_low_rad, body.limit_high_rad, target, model.capsules, model.pairs,
-        qpos_before, d.qvel, max(EASE_S, h), limp, FARTHEST_M, NEAR_RAD, rows, least,
+        qpos_before, d.qvel, max(EASE_S, h), h, limp, FARTHEST_M, NEAR_RAD, rows, least,
     )  # fmt: skip
     if count == 0:
         return
@@ -65,7 +65,7 @@ def braces(model, qpos: np.ndarray, towards: np.ndarray) -> tuple[np.ndarray, np
     rows, least = np.zeros((MOST_ROWS, m.nv)), np.empty(MOST_ROWS)
     count = find(
         PARENT, body.offset_m, body.limit_low_rad, body.limit_high_rad, qpos[3:].reshape(JOINT_COUNT, 4),
-        model.capsules, model.pairs, qpos, towards, np.inf, 0.0, TOUCHING_M, TOUCHING_RAD, rows, least,
+        model.capsules, model.pairs, qpos, towards, np.inf, np.inf, 0.0, TOUCHING_M, TOUCHING_RAD, rows, least,
     )  # fmt: skip
     rows = rows[:count]
     answers = np.empty_like(rows)
@@ -88,6 +88,7 @@ def find(
     qpos,
     qvel,
     ease_s,
+    h,
     limp,
     farthest_m,
     farthest_rad,
@@ -99,7 +100,7 @@ def find(
     No stop that is farther off than farthest_m or farthest_rad is looked at.
     """
     count = limits_into(qpos, qvel, low, high, target, ease_s, limp, farthest_rad, rows, least)
-    return parts_into(parent, offset_m, capsules, pairs, qpos, qvel, ease_s, limp, farthest_m, rows, least, count)
+    return parts_into(parent, offset_m, capsules, pairs, qpos, qvel, ease_s, h, limp, farthest_m, rows, least, count)
 
 
 @njit(cache=True)

@@ -100,6 +100,32 @@ def test_a_hand_thrown_at_the_face_stops_at_it():
     assert -0.005 < min(gaps) < 0.02
 
 
+@pytest.mark.parametrize("gap_m", [-0.002, 0.0, 0.005, 0.016, 0.05])
+@pytest.mark.parametrize("closing_mps", [0.2, 1.0, 5.0, 10.0])
+def test_parts_thrown_together_are_braked_evenly_over_gap_and_flesh(gap_m, closing_mps):
+    """As by one force, as far as stops let them come at all; never harder than by a stop alone, and no deeper than
+    flesh gives."""
+    h, changes, depths_m = 1.0 / 480.0, [], []
+    for rule in (part_stops.may_close_mps, lambda gap, v, ease_s, h: max(gap, 0.0) / ease_s):
+        gap, v, worst = gap_m, closing_mps, 0.0
+        for _ in range(60):
+            slower = min(v, rule(gap, v, stops.EASE_S, h))
+            worst, v = max(worst, v - slower), slower
+            gap -= v * h
+        changes.append(worst)
+        depths_m.append(-gap)
+    assert changes[0] <= changes[1]
+    if closing_mps * h > max(gap_m, 0.0):
+        assert changes[0] < 0.9 * changes[1] or gap_m + part_stops.FLESH_M < 0.5 * closing_mps * h
+    assert max(depths_m[0], -gap_m) <= part_stops.FLESH_M + 1e-9
+    assert depths_m[1] <= max(0.0, -gap_m) + 1e-9
+
+
+def test_what_lies_deeper_than_flesh_goes_no_deeper():
+    assert part_stops.may_close_mps(-0.03, 2.0, stops.EASE_S, 1.0 / 480.0) == 0.0
+    assert part_stops.may_close_mps(0.2, 2.0, stops.EASE_S, 1.0 / 480.0) > 2.0  # far off: nothing is bound
+
+
 def test_a_hand_that_lies_on_the_face_gives_way_no_more_than_the_head(monkeypatch):
     """What a ball meets there is hand and head in one, not a hand that is free to fly."""
     state = min(hands_thrown_at_the_face(), key=lambda state: nearest(state, "left_hand", "head")[0])
@@ -211,7 +237,7 @@ def test_a_row_is_how_the_gap_or_the_angle_changes_and_pushes_nobody_about():
     rows, least = np.zeros((MOST_ROWS, NV)), np.empty(MOST_ROWS)
     count = stops.find(
         PARENT, BODY.offset_m, BODY.limit_low_rad, BODY.limit_high_rad, pose.rotations, SHAPES, MODEL.pairs,
-        qpos, qvel, stops.EASE_S, 0.0, part_stops.FARTHEST_M, limit_stops.NEAR_RAD, rows, least,
+        qpos, qvel, stops.EASE_S, stops.EASE_S, 0.0, part_stops.FARTHEST_M, limit_stops.NEAR_RAD, rows, least,
     )  # fmt: skip
     assert count > 5
     moved = qpos.copy()
