@@ -11,7 +11,7 @@ import numpy as np
 
 from engine.body.skeleton import JOINT_COUNT
 from engine.core.world import Component, column
-from engine.physics.layout import STATE_SIZE, SUB_STEPS
+from engine.physics.layout import SHAPES, STATE_SIZE, SUB_STEPS
 
 NOBODY = -1
 
@@ -107,6 +107,10 @@ class Ragdoll(Component):
     state = column(STATE_SIZE)
     before = column(STATE_SIZE)  # a tick earlier
     head_mps = column(SUB_STEPS, 3)  # velocity of the head at the sub-steps of the last tick
+    sunk_m = column(SHAPES)  # how deep each of its shapes may lie in the floor
+    arriving = column(2, JOINT_COUNT, 3)  # turns beyond the sustained pose when it was taken over, and their velocities
+    half_life_s = column(JOINT_COUNT)  # of those
+    taken = column(dtype=np.int64)  # the tick of that
     stepped = column(dtype=np.int64)  # the tick that the state is of
     active = column(dtype=bool)
 

@@ -10,6 +10,7 @@ from __future__ import annotations
 import numpy as np
 
 from behaviours import feet as foot_plan
+from behaviours.arriving import arriving, begin_arriving
 from behaviours.components import (
     NOBODY,
     Blend,
@@ -40,7 +41,7 @@ from engine.body.kinematics import joints_of
 from engine.body.skeleton import HEAD, JOINT_COUNT, JOINTS, Pose
 from engine.core.schedule import Stage, system
 from engine.maths import quaternion, vector
-from engine.physics import impact, ragdoll
+from engine.physics import impact, ragdoll, sunk
 from engine.physics.layout import SUB_STEPS
 
 GUARDED = (Phase.STARTLE, Phase.PROTECT, Phase.HOLD)  # in these the sustained pose is what the servos hold
@@ -61,14 +62,23 @@ def step_bodies(world, tick):
         if not doll.active[row]:
             continue
         model = world.assets.models[int(world[Character].body[row])]
-        target, share = held_pose(world, row, ragdoll.pose_of(model, doll.state[row]))
-        pushes = deal_blow(world, row)
-        strength = response.stiffness * share
-        trace = np.empty((SUB_STEPS, JOINT_COUNT, 3))
+        pushes, trace = deal_blow(world, row), np.empty((SUB_STEPS, JOINT_COUNT, 3))
+        held, share = held_pose(world, row, ragdoll.pose_of(model, doll.state[row]))
         doll.before[row] = doll.state[row]
         doll.state[row] = ragdoll.step(
-            model, doll.state[row], target, strength, response.damping, TICK_S, pushes, trace
+            model,
+            doll.state[row],
+            arriving(world, row, tick, held),
+            response.stiffness * share,
+            response.damping,
+            TICK_S,
+            pushes,
+            trace,
+            target_before=arriving(world, row, tick - 1, held),
+            carries=0.0 if world[Reaction].phase[row] == Phase.DOWN else 1.0,
+            sunk_m=doll.sunk_m[row],
         )
+        doll.sunk_m[row] = sunk.risen(model, doll.state[row], doll.sunk_m[row], TICK_S)
         doll.head_mps[row] = trace[:, HEAD]
         doll.stepped[row] = tick
         remember(world, row, joints_of(model.body, ragdoll.pose_of(model, doll.state[row]))[0])
@@ -278,6 +288,8 @@ def begin_response(world, row: int, tick: int, state: np.ndarray) -> None:
         r.contact[row] = tick
     world[Ragdoll].state[row], world[Ragdoll].before[row] = state, state
     model = world.assets.models[int(world[Character].body[row])]
+    begin_arriving(world, row, tick)
+    world[Ragdoll].sunk_m[row] = sunk.depths_m(model, state)
     world[Ragdoll].head_mps[row] = ragdoll.part_motion_of(model, state)[HEAD]
     world[Ragdoll].stepped[row], world[Ragdoll].active[row] = tick, True
     begin_remembering(world, row, joints_of(model.body, now)[0])

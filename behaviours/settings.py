@@ -269,6 +269,9 @@ class Response(NamedTuple):
     )
     falling_share: Annotated[float, Constant("1", "A8", "of that strength that is left while falling")] = 0.7
     down_share: Annotated[float, Constant("1", "A8", "and once it lies")] = 0.05
+    arrives_half_life_s: Annotated[
+        float, Constant("s", "A8", "half-life of the movement that the blow has cut short")
+    ] = 0.15
     stiffness: Annotated[float, Constant("1", "A8", "strength of the tracking servos, 1 is usual")] = 1.0
     damping: Annotated[float, Constant("1", "A8", "their damping, 1 is critical")] = 1.0
 

@@ -15,7 +15,7 @@ import numpy as np
 from engine.body.skeleton import JOINT_COUNT, PARENT, Pose
 from engine.maths import rotations
 from engine.maths.springs import half_sine
-from engine.physics import part_stops, stops, tracking
+from engine.physics import part_stops, stops, tracking, weight
 from engine.physics.model import SUB_STEPS_HZ, RagdollModel
 
 _KIND = mujoco.mjtState.mjSTATE_INTEGRATION
@@ -57,12 +57,18 @@ def step(
     dt_s: float,
     pushes: tuple[Push, ...] = (),
     trace: np.ndarray | None = None,
+    *,
+    target_before: Pose | None = None,
+    carries: float = 0.0,
+    sunk_m: np.ndarray | None = None,
 ) -> np.ndarray:
     """The state dt_s later: gravity, floor, servos towards the target's rotations (its root is ignored), and pushes.
 
     strength 1 is a fit person's, 0 limp; damping 1 is critical. Sub-steps of 1 / 480 s or a little less; trace, if
     given, (sub_steps_in(dt_s), J, 3), is filled with the velocity of every part's centre of mass after each: a blow is
-    over within a tick.
+    over within a tick. The target may move, evenly, from target_before. carries, 0 to 1, is the share of the weight on
+    standing feet that the muscles hold from the start (`engine.physics.weight`); sunk_m (S,) how deep each shape may
+    lie in the floor (`engine.physics.sunk`).
     """
     m, d = model.mujoco_model, model.data
     _load(model, state)
@@ -70,14 +76,21 @@ def step(
     h = dt_s / count
     m.opt.timestep = h
     body, target_rotations = model.body, np.ascontiguousarray(target.rotations, dtype=float)
+    came_from = target_rotations if target_before is None else np.ascontiguousarray(target_before.rotations, float)
+    goal, spins = np.empty((JOINT_COUNT, 4)), np.empty((JOINT_COUNT, 3))
+    tracking.spins_between(came_from, target_rotations, dt_s, spins)
     part_stops.keep_own(model, target_rotations)
-    torque, armature = np.zeros(m.nv), np.zeros(m.nv)
+    m.geom_margin[1:] = 0.0 if sunk_m is None else -sunk_m
+    torque, armature, carried_nm = np.zeros(m.nv), np.zeros(m.nv), strength * model.strength_nm
     momentum = _momentum(model)
     for k in range(count):
+        tracking.turned(came_from, spins, (k + 1) * h, goal)
         tracking.drive(
-            d.qpos, d.qvel, target_rotations, body.limit_low_rad, body.limit_high_rad,
+            d.qpos, d.qvel, goal, spins, body.limit_low_rad, body.limit_high_rad,
             model.inertia_kgm2, model.strength_nm, float(strength), float(damping), h, torque, armature,
         )  # fmt: skip
+        if carries > 0.0:
+            weight.carry(PARENT, body, d.qpos, -m.opt.gravity[2], carries, carried_nm, torque)
         m.dof_armature[:] = armature
         d.qfrc_applied[:] = torque
         for push in pushes:

@@ -27,37 +27,57 @@ from engine.maths.inner_kernel import inner_kernel
 SERVO_HZ = 3.5  # at strength 1: settles in about 0.1 s, as braced muscle with its reflexes does
 LIGAMENT_HZ = 8.0
 LIGAMENT_PER_STRENGTH = 60.0  # per radian beyond a limit: a joint gives 1 degree under its own muscles' full torque
+TAUT_RAD = 0.02  # beyond a limit: there a ligament damps fully, before that in proportion (Hunt and Crossley 1975)
 PASSIVE_PER_S = 1.5  # tissue damping that is left without any strength, per unit of servo inertia
 
 
 @njit(cache=True)
-def drive(qpos, qvel, target, low, high, inertia, most_nm, strength, damping, h, torque, armature):
+def drive(qpos, qvel, target, spins, low, high, inertia, most_nm, strength, damping, h, torque, armature):
     """Fills in torque (nv,) and armature (nv,) for one sub-step of h seconds; the root's six stay zero.
 
-    target (J, 4): local rotations to pull towards. A limit that the target oversteps is moved out to it: a clip keeps
-    its own excess. strength scales stiffness and greatest torque (0: limp), damping the servo's damping ratio (1:
-    critical).
+    target (J, 4): local rotations to pull towards, which turn at spins (J, 3), radians per second, each in its own
+    frame: muscles damp what goes otherwise, not the movement that they make. A limit that the target oversteps is moved
+    out to it: a clip keeps its own excess. strength scales stiffness and greatest torque (0: limp), damping the servo's
+    damping ratio (1: critical).
     """
     w = 2.0 * math.pi * SERVO_HZ
     for j in range(1, JOINT_COUNT):
         a, v = 3 + 4 * j, 3 + 3 * j
         q = (qpos[a], qpos[a + 1], qpos[a + 2], qpos[a + 3])
         spin = (qvel[v], qvel[v + 1], qvel[v + 2])
-        k, d = _servo_gains(q, spin, target[j], inertia[j] * w * w * strength, strength * most_nm[j],
+        astray = vector.subtract(spin, spins[j])
+        k, own = _servo_gains(q, astray, target[j], inertia[j] * w * w * strength, strength * most_nm[j],
                             2.0 * damping * inertia[j] * w * math.sqrt(strength))  # fmt: skip
-        d += PASSIVE_PER_S * inertia[j]
+        d = own + PASSIVE_PER_S * inertia[j]
         error = _towards(q, target[j])
         inwards = _towards(q, clamp_keeping(low[j], high[j], target[j], q))
         beyond = math.sqrt(inwards[0] ** 2 + inwards[1] ** 2 + inwards[2] ** 2)
         tight = 0.0
         if beyond > 1e-9:
-            own = 2.0 * math.pi * LIGAMENT_HZ
-            tight = max(inertia[j] * own * own, LIGAMENT_PER_STRENGTH * most_nm[j])
-            d += 2.0 * math.sqrt(tight * inertia[j])
+            ligament = 2.0 * math.pi * LIGAMENT_HZ
+            tight = max(inertia[j] * ligament * ligament, LIGAMENT_PER_STRENGTH * most_nm[j])
+            d += 2.0 * math.sqrt(tight * inertia[j]) * min(1.0, beyond / TAUT_RAD)
         slope = d + h * (k + tight)
         for axis in range(3):
-            torque[v + axis] = k * error[axis] + tight * inwards[axis] - slope * spin[axis]
+            torque[v + axis] = k * error[axis] + own * spins[j, axis] + tight * inwards[axis] - slope * spin[axis]
             armature[v + axis] = h * slope
+
+
+@njit(cache=True)
+def spins_between(before, now, dt_s, spins):
+    """Fills in the spins (J, 3), each in its joint's frame, that turn rotations (J, 4) into others in dt_s."""
+    for j in range(JOINT_COUNT):
+        turn = _towards(before[j], now[j])
+        for axis in range(3):
+            spins[j, axis] = turn[axis] / dt_s
+
+
+@njit(cache=True)
+def turned(before, spins, dt_s, out):
+    """Fills in where rotations (J, 4) are after dt_s at these spins."""
+    for j in range(JOINT_COUNT):
+        turn = quaternion.from_rotation_vector(vector.scale(vector.at(spins, j), dt_s))
+        quaternion.put(out, j, quaternion.normalise(quaternion.multiply(quaternion.at(before, j), turn)))
 
 
 @inner_kernel

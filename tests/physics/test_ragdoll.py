@@ -127,8 +127,8 @@ def test_a_servo_asks_for_no_more_than_a_persons_strength_and_nothing_of_the_roo
     qvel = np.zeros(nv)
     target = standing().rotations
     tracking.drive(
-        state[MODEL.positions], qvel, target, -wide, wide, MODEL.inertia_kgm2, MODEL.strength_nm, 1.0, 1.0, 1 / 480,
-        torque, armature,
+        state[MODEL.positions], qvel, target, np.zeros((21, 3)), -wide, wide, MODEL.inertia_kgm2, MODEL.strength_nm,
+        1.0, 1.0, 1 / 480, torque, armature,
     )  # fmt: skip
     asked = np.sqrt((torque[3:].reshape(-1, 3) ** 2).sum(1))
     assert (asked <= MODEL.strength_nm + 1e-9).all()
