@@ -22,6 +22,7 @@ from behaviours.simulation import flat_settings
 from demos.stage import pelvis_m
 from demos.window.phases import WORDS
 from demos.window.rehearsal import Rehearsal
+from demos.window.rerunning import Rerun
 from demos.window.run import ClipBox, Inputs, Run
 from demos.window.slow_motion import SlowMotion
 from demos.window.threat_draft import ThreatDraft, draft_of
@@ -37,7 +38,6 @@ from engine.render.camera import Camera, ray_through
 
 RATES = (0.05, 0.1, 0.25, 0.5, 1.0, 2.0)
 TICKS_BUDGET_S = 0.025  # a frame spends at most this on ticks: what does not fit slows the show down, not the window
-RERUN_BUDGET_S = 0.020  # and this on running a changed scenario
 
 
 class Session:
@@ -55,7 +55,7 @@ class Session:
         """
         self.folder, self.save_in, self._stopwatch = folder, save_in, stopwatch
         self.find = ClipBox(folder)
-        self.run = Run(scenario, self.find, folder, {})
+        self.run = self._run_of(scenario, {})
         self.clock, self.slow_motion = Clock(), SlowMotion()
         self.view, self.toasts = View(), Toasts()
         self.threat = draft_of(scenario.threat[0]) if scripted(scenario) else ThreatDraft()
@@ -68,8 +68,7 @@ class Session:
         self._dice = random.Random(scenario.seed)
         self._next_fire = 0
         self._rehearsal = Rehearsal()
-        self._wanted: tuple[Scenario, Inputs] | None = None
-        self._rerun: Run | None = None
+        self._rerun = Rerun(self._run_of, lambda line: self.say(line, alarm=True))
 
     # --- what there is -------------------------------------------------------------------------------------------
 
@@ -85,7 +84,7 @@ class Session:
     @property
     def scenario(self) -> Scenario:
         """As it was last wanted, whether it is shown already or not."""
-        return self._wanted[0] if self._wanted else self._rerun.scenario if self._rerun else self.run.scenario
+        return self._rerun.newest(self.run)[0]
 
     @property
     def character(self) -> CharacterSpec:
@@ -116,7 +115,7 @@ class Session:
     @property
     def busy(self) -> bool:
         """Whether a changed scenario is still being run."""
-        return self._rerun is not None
+        return self._rerun.going
 
     def centre_m(self) -> np.ndarray:
         """What the camera keeps up with: the selected character, at chest height."""
@@ -161,7 +160,7 @@ class Session:
                 break
             self._fire()
             self.run.advance()
-        self._run_again()
+        self.run = self._rerun.go_on(self.run, self._stopwatch)
         self._rehearsal.go_on(self._rehearsed, self._stopwatch)
 
     def pause(self) -> None:
@@ -192,8 +191,8 @@ class Session:
     # --- what comes in -------------------------------------------------------------------------------------------
 
     def command(self, command: Command) -> None:
-        """Something comes in at this moment; what was known of the future is gone."""
-        self._finish()
+        """Something comes in at this moment; what was known of the future is gone. What was changed is shown before."""
+        self.run = self._rerun.finish(self.run)
         self.run.command(command)
 
     def throw(self, speed_mps: float) -> None:
@@ -238,7 +237,7 @@ class Session:
         """Whatever else differs in the scenario or in what comes in. An impossible change is said, and not made."""
         try:
             raw = {**self.scenario.model_dump(mode="json"), **changes}
-            self._wanted = (check_scenario(raw), self._inputs() if inputs is None else inputs)
+            self._rerun.want(check_scenario(raw), self._inputs() if inputs is None else inputs)
         except BraceError as trouble:
             self.say(trouble.line(), alarm=True)
 
@@ -256,8 +255,8 @@ class Session:
 
     def begin(self, scenario: Scenario, inputs: Inputs) -> None:
         """Another scenario from its first tick. BadInput or EnvironmentTrouble, and nothing changed, if it cannot."""
-        self.run = Run(scenario, self.find, self.folder, inputs)
-        self._wanted = self._rerun = None
+        self.run = self._run_of(scenario, inputs)
+        self._rerun.forget()
         self._next_fire = 0
 
     def alter_last_threat(self) -> None:
@@ -281,49 +280,15 @@ class Session:
         return flat_settings(self.scenario.settings)
 
     def _inputs(self) -> Inputs:
-        return self._wanted[1] if self._wanted else (self._rerun or self.run).inputs
+        return self._rerun.newest(self.run)[1]
 
-    def _run_again(self) -> None:
-        """Works on the run of the changed scenario for part of a frame; shows it when it is where the old one is."""
-        begun_s = self._stopwatch()
-        while self._stopwatch() - begun_s < RERUN_BUDGET_S:
-            if self._rerun is None and not self._start_rerun():
-                return
-            assert self._rerun is not None
-            if self._rerun.world.tick >= self.run.last_tick:
-                self._show_rerun()
-            else:
-                self._rerun.advance()
-
-    def _start_rerun(self) -> bool:
-        """False where nothing is wanted, or it cannot be."""
-        if self._wanted is None:
-            return False
-        (scenario, inputs), self._wanted = self._wanted, None
-        try:
-            self._rerun = Run(scenario, self.find, self.folder, inputs)
-        except BraceError as trouble:
-            self.say(trouble.line(), alarm=True)
-            return False
-        return True
-
-    def _show_rerun(self) -> None:
-        assert self._rerun is not None
-        tick, self.run, self._rerun = self.tick, self._rerun, None
-        self.run.seek(tick)
+    def _run_of(self, scenario: Scenario, inputs: Inputs) -> Run:
+        return Run(scenario, self.find, self.folder, inputs)
 
     def _rehearsed(self) -> Run:
         """The run of the threat that the panel describes, beside the one that is shown."""
         inputs: Inputs = {0: [{"do": "threaten", "threat": self.threat.spec(self.selected)}]}
-        return Run(self.run.scenario, self.find, self.folder, inputs)
-
-    def _finish(self) -> None:
-        """Whatever was changed is shown before anything else comes in."""
-        while self._rerun is not None or self._start_rerun():
-            assert self._rerun is not None
-            while self._rerun.world.tick < self.run.last_tick:
-                self._rerun.advance()
-            self._show_rerun()
+        return self._run_of(self.run.scenario, inputs)
 
 
 def scripted(scenario: Scenario) -> bool:
