@@ -9,8 +9,6 @@ import numpy as np
 from engine.core.component import Component
 from engine.core.reader import Reader
 
-NO_ROWS = np.empty(0, np.int64)
-
 
 class Columns:
     """What a system sees of a component: `.field` is the whole column, row axis first; `.present` tells which count.

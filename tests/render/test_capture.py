@@ -19,7 +19,7 @@ from engine.core import files
 from engine.core.errors import EXIT_BAD_INPUT, EXIT_ENVIRONMENT, BadInput, EnvironmentTrouble
 from engine.render import capture
 from engine.render.capture import video
-from engine.render.capture.filmstrip import PAPER, even_times
+from engine.render.capture.filmstrip import PAPER
 from engine.render.capture.pictures import gif_delays_ms
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -31,13 +31,6 @@ def _film(count: int = 9, width: int = 64, height: int = 48):
         frame = np.full((height, width, 3), 128, np.uint8)
         frame[10:20, 3 * number : 3 * number + 10] = (220, 30, 30)
         yield frame
-
-
-def _noise(count: int):
-    """Frames that no codec makes small."""
-    random = np.random.default_rng(6)
-    for _ in range(count):
-        yield random.integers(0, 256, (240, 320, 3), np.uint8)
 
 
 def _decoded(path: Path, width: int, height: int) -> np.ndarray:
@@ -309,12 +302,6 @@ def test_filmstrips_wrap_carry_words_and_refuse_what_does_not_fit():
         capture.compose_filmstrip(pictures, ["a", "b"])
     with pytest.raises(BadInput, match="not a single frame"):
         capture.compose_filmstrip([], [])
-
-
-def test_times_of_a_filmstrip_span_the_film():
-    assert even_times(5, 101) == [0, 25, 50, 75, 100]
-    assert even_times(5, 3) == [0, 1, 2]
-    assert even_times(1, 10) == [0]
 
 
 def _contents(folder: Path) -> dict[str, bytes]:

@@ -55,11 +55,6 @@ def compose_filmstrip(
     return np.asarray(sheet)
 
 
-def even_times(count: int, frames: int) -> list[int]:
-    """The rows of `count` pictures spread over a film of that many frames, first and last among them."""
-    return [round(float(row)) for row in np.linspace(0, max(frames - 1, 0), min(count, frames))]
-
-
 def _rounded(width: int, height: int, radius: int) -> Image.Image:
     """A mask with smooth round corners."""
     mask = Image.new("L", (width * _FINE, height * _FINE))
