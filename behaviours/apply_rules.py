@@ -9,7 +9,6 @@ with arrays in it has each of them counted at every call, which costs as much as
 from __future__ import annotations
 
 import numpy as np
-from numba import njit
 
 from behaviours.guard import clamp, guard, reset
 from behaviours.limb_freedom import free_leg
@@ -19,6 +18,7 @@ from engine.body.limb_ik import KEEP, leg_onto, place_children
 from engine.body.skeleton import HEAD, HIPS, PELVIS, TOES
 from engine.maths import quaternion, vector
 from engine.maths.inner_kernel import inner_kernel
+from engine.maths.kernel import njit
 
 
 @njit(cache=True)

@@ -12,7 +12,6 @@ import math
 from typing import NamedTuple
 
 import numpy as np
-from numba import njit
 
 from behaviours.held_feet import mix_angle
 from engine.body import limits
@@ -20,6 +19,7 @@ from engine.body.limb_ik import CARRIED, KEEP, apply_arm, arm_swivel, place_chil
 from engine.body.skeleton import CLAVICLES, ELBOWS, SHOULDERS, WRISTS
 from engine.maths import quaternion, vector
 from engine.maths.inner_kernel import inner_kernel
+from engine.maths.kernel import njit
 
 # the hand goes straight, and the elbow's swivel is interpolated, as the thesis has it; or the elbow goes where slerping
 # the arm takes it; or the whole arm is swung, and the hand goes where that takes it

@@ -11,8 +11,6 @@ from __future__ import annotations
 
 import math
 
-from numba import njit
-
 from behaviours.components import Character, Feet, FootMode, Phase, Ragdoll, Reaction, Sustained
 from behaviours.inertialise import remaining, turn_from, turned_by
 from behaviours.playing import body_of
@@ -22,6 +20,7 @@ from engine.body.limits import clamp_keeping, components
 from engine.body.skeleton import ANKLES, HIPS, JOINT_COUNT, KNEES, Pose
 from engine.maths import quaternion, vector
 from engine.maths.inner_kernel import inner_kernel
+from engine.maths.kernel import njit
 from engine.physics import ragdoll
 
 UNDER_WAY = (Phase.RESPOND, Phase.RECOVER_BLEND)

@@ -12,7 +12,6 @@ import math
 from typing import NamedTuple
 
 import numpy as np
-from numba import njit
 
 from behaviours.overlap import PAIRS, depths_at
 from behaviours.second_pass import balance
@@ -21,6 +20,7 @@ from engine.body.kinematics import centre_of_mass, joints_into
 from engine.body.skeleton import ANKLES, ELBOWS, JOINT_COUNT, KNEES, PELVIS, WRISTS
 from engine.maths import quaternion, vector
 from engine.maths.inner_kernel import inner_kernel
+from engine.maths.kernel import njit
 
 
 class BlendEnd(NamedTuple):

@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 import numpy as np
-from numba import njit
 
 from behaviours.apply_rules import apply_rules
 from behaviours.fit_arms import fit_arms
 from engine.body.skeleton import HIPS
 from engine.maths import vector
 from engine.maths.inner_kernel import inner_kernel
+from engine.maths.kernel import njit
 
 EXACT = 0.0  # leg reach without the soft end: for poses that are shown
 LOWERINGS = 20  # each closes what is missing but for the leg's slant

@@ -10,7 +10,6 @@ import math
 from typing import NamedTuple
 
 import numpy as np
-from numba import njit
 
 from behaviours.components import FootMode
 from behaviours.held_feet import FootGoals
@@ -18,6 +17,7 @@ from behaviours.timing import arc, ease
 from engine.body.kinematics import joints_of
 from engine.body.skeleton import ANKLES, TOES
 from engine.maths import quaternion, vector
+from engine.maths.kernel import njit
 
 FREE, HELD, STEPPING = int(FootMode.FREE), int(FootMode.HELD), int(FootMode.STEPPING)
 

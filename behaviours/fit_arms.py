@@ -10,7 +10,6 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from numba import njit
 
 from behaviours.arm_trouble import (
     ALONG_LINE_M,
@@ -32,6 +31,7 @@ from engine.body.skeleton import BACK, SHOULDERS, WRISTS
 from engine.maths import quaternion, vector
 from engine.maths.copying import copy_into
 from engine.maths.inner_kernel import inner_kernel
+from engine.maths.kernel import njit
 
 # an elbow may hang on the wrong side of something: from trouble like this on others are tried, left and right
 ENOUGH_TROUBLE = 9.0

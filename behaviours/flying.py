@@ -5,13 +5,13 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from numba import njit
 
 from behaviours.components import Flight, Posture
 from behaviours.timing import TICK_S
 from engine.core.schedule import Stage, system
 from engine.maths import quaternion
 from engine.maths.ballistics import GRAVITY_MPS2, fly
+from engine.maths.kernel import njit
 from engine.physics.impact import HOLLOW, contact_impulse
 
 ROLLING = 0.02  # resistance of a ball that rolls on a hard floor, as a share of its weight

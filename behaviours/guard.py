@@ -11,8 +11,6 @@ from __future__ import annotations
 
 import math
 
-from numba import njit
-
 from behaviours.perceived import target_centre
 from behaviours.rules import block, recoil, wrap
 from engine.body.limb_ik import place_children, side_sign
@@ -21,6 +19,7 @@ from engine.body.skeleton import BACK, CLAVICLES, ELBOWS, HEAD, SHOULDERS, WRIST
 from engine.body.two_bones import SOFT_REACH_M, soft_reach
 from engine.maths import quaternion, vector
 from engine.maths.inner_kernel import inner_kernel
+from engine.maths.kernel import njit
 
 
 @inner_kernel

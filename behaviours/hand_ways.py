@@ -12,7 +12,6 @@ from __future__ import annotations
 from typing import NamedTuple
 
 import numpy as np
-from numba import njit
 
 from behaviours.arm_ways import INTERPOLATED, KNOT_PARTS, KNOTS, SLERPED, SWUNG, follow_way, overstep
 from behaviours.blending import BlendEnd
@@ -24,6 +23,7 @@ from engine.body.skeleton import ELBOWS, PELVIS, SHOULDERS, WRISTS, Pose
 from engine.maths import vector
 from engine.maths.copying import copy_into
 from engine.maths.inner_kernel import inner_kernel
+from engine.maths.kernel import njit
 
 MOMENTS = 25  # at which a way is judged
 APART_M = 0.010  # skins keep this far from each other, where they are so far at the ends

@@ -6,7 +6,6 @@ import math
 from typing import NamedTuple
 
 import numpy as np
-from numba import njit
 
 from behaviours.timing import ease
 from engine.body.kinematics import joints_into
@@ -15,6 +14,7 @@ from engine.body.skeleton import ANKLES, HIPS, JOINT_COUNT, KNEES, TOES
 from engine.body.two_bones import soft_reach
 from engine.maths import vector
 from engine.maths.inner_kernel import inner_kernel
+from engine.maths.kernel import njit
 
 LEG_SOFT_M = 0.010  # a leg straightens over this length, instead of snapping straight; one in the air,
 AIR_SOFT_M = 0.006  # whose foot may stay behind, over a few times this, before and after its goal is out of reach

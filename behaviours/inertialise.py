@@ -8,11 +8,11 @@ a jump in position or in velocity. It is kept as an offset with a velocity that 
 from __future__ import annotations
 
 import numpy as np
-from numba import njit
 
 from engine.body.skeleton import JOINT_COUNT
 from engine.maths import quaternion, springs
 from engine.maths.inner_kernel import inner_kernel
+from engine.maths.kernel import njit
 
 
 @inner_kernel

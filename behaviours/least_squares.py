@@ -10,9 +10,9 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from numba import njit
 
 from engine.maths.inner_kernel import inner_kernel
+from engine.maths.kernel import njit
 
 
 @njit(cache=True)

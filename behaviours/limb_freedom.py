@@ -9,13 +9,12 @@ from __future__ import annotations
 import math
 from typing import NamedTuple
 
-from numba import njit
-
 from engine.body.limb_ik import place_children, side_sign
 from engine.body.limits import components
 from engine.body.skeleton import ANKLES, HIPS, KNEES, PELVIS, TOES
 from engine.maths import quaternion, vector
 from engine.maths.inner_kernel import inner_kernel
+from engine.maths.kernel import njit
 
 STEP_RAD = math.radians(12.0)
 STEPS = 4  # how far to look, to either side

@@ -10,7 +10,6 @@ from __future__ import annotations
 from typing import NamedTuple
 
 import numpy as np
-from numba import njit
 
 from behaviours.apply_rules import place_trunk, plant_leg
 from behaviours.plant import pull_pelvis
@@ -20,6 +19,7 @@ from engine.body.skeleton import HIPS, PELVIS
 from engine.body.two_bones import SOFT_REACH_M
 from engine.maths import quaternion, vector
 from engine.maths.inner_kernel import inner_kernel
+from engine.maths.kernel import njit
 
 SHARES = 8  # of the look-ahead that are tried, all of it first
 HALVINGS = 10

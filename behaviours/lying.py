@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import numpy as np
-from numba import njit
 
 from engine.body.footing import lowest_m
 from engine.body.kinematics import joints_into
 from engine.body.skeleton import JOINT_COUNT
 from engine.maths import quaternion
+from engine.maths.kernel import njit
 
 
 @njit(cache=True)

@@ -19,10 +19,10 @@ import math
 from typing import NamedTuple
 
 import numpy as np
-from numba import njit
 
 from engine.maths.copying import copy_into
 from engine.maths.inner_kernel import inner_kernel
+from engine.maths.kernel import njit
 
 # how a search ended, by its `counts[STOP]`
 STOPS = ("running", "converged", "iterations", "line_search", "flat")

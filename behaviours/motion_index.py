@@ -15,7 +15,6 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from numba import njit
 from scipy.spatial import cKDTree
 
 from behaviours.components import SAMPLES, STRIDE_TICKS
@@ -27,6 +26,7 @@ from engine.clips.cache import cache_folder, write_whole
 from engine.clips.clip import Clip
 from engine.clips.playback import planted_at, sample_into
 from engine.clips.retarget import legs_m
+from engine.maths.kernel import njit
 
 LYING, RISEN = 0.4, 0.9  # height of the hips in shares of the leg
 

@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 import numpy as np
-from numba import njit
 
 from engine.body.capsules import CAPSULES, Capsules, body_capsules, capsules_at
 from engine.body.kinematics import joints_of
 from engine.body.skeleton import Body, Pose
 from engine.maths import vector
 from engine.maths.inner_kernel import inner_kernel
+from engine.maths.kernel import njit
 from engine.maths.shapes import nearest_between
 
 TRUNK = ("pelvis", "belly", "chest", "upper_chest", "head")

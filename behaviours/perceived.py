@@ -5,11 +5,11 @@ from __future__ import annotations
 from typing import NamedTuple
 
 import numpy as np
-from numba import njit
 
 from engine.body.capsules import CAPSULES, body_capsules
 from engine.body.skeleton import BACK, HEAD, JOINTS, NECK, PELVIS, Body, joint_index
 from engine.maths import quaternion, vector
+from engine.maths.kernel import njit
 
 # what a threat can be aimed at by name: three places of the body, then every joint
 AIMS = ("head", "torso", *(name for name in JOINTS if name != "head"))

@@ -5,7 +5,6 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
-from numba import njit
 
 from behaviours import plant
 from behaviours.apply_rules import hang_leg, place_trunk
@@ -32,6 +31,7 @@ from engine.body.skeleton import (
 )
 from engine.clips.mirror import mirror_body
 from engine.maths import quaternion, vector
+from engine.maths.kernel import njit
 
 LEG_JOINTS = 4  # hip, knee, ankle, toe, one after the other
 UP = (0.0, 0.0, 1.0)

@@ -9,7 +9,6 @@ from __future__ import annotations
 from typing import NamedTuple
 
 import numpy as np
-from numba import njit
 
 from behaviours.components import Character, Flight, Posture, Reaction, Threat
 from behaviours.perceived import AIMS, aim_of, target_centre
@@ -20,6 +19,7 @@ from engine.body.kinematics import joints_of
 from engine.core.schedule import Stage, system
 from engine.maths import vector
 from engine.maths.ballistics import GRAVITY_MPS2, fly
+from engine.maths.kernel import njit
 
 GUARDED = ("head", "torso", "pelvis")  # what a free threat may be about to hit
 

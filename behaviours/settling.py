@@ -5,7 +5,6 @@ be.
 from __future__ import annotations
 
 import numpy as np
-from numba import njit
 
 from behaviours import feet as foot_plan
 from behaviours import seams
@@ -34,6 +33,7 @@ from engine.body.skeleton import ANKLES, HIPS, JOINT_COUNT, KNEES, PELVIS
 from engine.core.schedule import Stage, system
 from engine.maths import quaternion, vector
 from engine.maths.inner_kernel import inner_kernel
+from engine.maths.kernel import njit
 
 BELONGINGS = (Ragdoll, Blow, Residual, Blend, Feet, Sustained, Playback)  # what a pose is made from
 OLD_SHARE = 0.5  # of the residual's half-life: how long what the old motion had beyond a limit is let be

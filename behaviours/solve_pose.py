@@ -5,7 +5,6 @@ from __future__ import annotations
 from typing import NamedTuple
 
 import numpy as np
-from numba import njit
 
 from behaviours import minimise
 from behaviours.least_squares import bounded_step, normal_equations
@@ -13,6 +12,7 @@ from behaviours.rules.controls import CONTROL_COUNT
 from behaviours.total_error import BEGIN, RESIDUALS, SQUARES, TERMS, VARIABLES, residuals_into, total_error
 from engine.maths.copying import copy_into
 from engine.maths.inner_kernel import inner_kernel
+from engine.maths.kernel import njit
 
 REFINE = 0.1  # each restart looks closer: the thesis's offset is as wide as the leg's soft end
 LEAST_SQUARES_OFFSET = 1e-4  # its derivatives are of residuals, not of their squares: a fine difference is safe

@@ -9,7 +9,6 @@ from __future__ import annotations
 from typing import NamedTuple
 
 import numpy as np
-from numba import njit
 
 from behaviours.arm_ways import KNOT_PARTS, KNOTS, swing_elbow, swing_shoulder
 from behaviours.least_squares import bounded_step, normal_equations
@@ -20,6 +19,7 @@ from engine.body.skeleton import CLAVICLES, ELBOWS, SHOULDERS, WRISTS
 from engine.maths import quaternion, vector
 from engine.maths.copying import copy_into
 from engine.maths.inner_kernel import inner_kernel
+from engine.maths.kernel import njit
 
 BENDS = KNOTS * KNOT_PARTS
 PARTS = 1 + len(PAIRS)  # of what may be wrong at a moment: the hand off its line, pairs too deep

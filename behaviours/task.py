@@ -8,12 +8,12 @@ from __future__ import annotations
 from typing import NamedTuple
 
 import numpy as np
-from numba import njit
 
 from behaviours.perceived import PerceivedThreat, head_centre_m
 from behaviours.settings import Block, LeanTurn, Pelvis, Recoil, Wrap
 from engine.body.capsules import CAPSULES, body_capsules
 from engine.body.skeleton import ANKLES, ELBOWS, JOINT_COUNT, KNEES, WRISTS, Body
+from engine.maths.kernel import njit
 
 Triple = tuple[float, float, float]
 OBSTACLES = ("pelvis", "belly", "chest", "upper_chest", "head")

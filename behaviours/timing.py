@@ -4,9 +4,8 @@ from __future__ import annotations
 
 import math
 
-from numba import njit
-
 from behaviours.settings import Timing
+from engine.maths.kernel import njit
 
 TICK_S = 1.0 / 120.0
 

@@ -14,7 +14,6 @@ import math
 from typing import NamedTuple
 
 import numpy as np
-from numba import njit
 
 from behaviours.apply_rules import update_pose
 from behaviours.rules.controls import CONTROL_COUNT
@@ -22,6 +21,7 @@ from engine.body.kinematics import centre_of_mass
 from engine.body.skeleton import ANKLES, PELVIS
 from engine.maths import quaternion
 from engine.maths.inner_kernel import inner_kernel
+from engine.maths.kernel import njit
 
 TERMS = ("balance", "hands", "torso", "pelvis_height", "feet", "controls", "limits", "outside")
 VARIABLES = 3 + CONTROL_COUNT

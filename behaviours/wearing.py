@@ -13,7 +13,6 @@ import math
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
-from numba import njit
 
 from engine.body.footing import drop_to_reach, leg_length_m
 from engine.body.kinematics import joints_into
@@ -21,6 +20,7 @@ from engine.body.limb_ik import apply_leg, leg_swivel
 from engine.body.limits import clamp_keeping
 from engine.body.skeleton import ANKLES, HIPS, JOINT_COUNT, PELVIS, Body, Pose
 from engine.maths import quaternion
+from engine.maths.kernel import njit
 
 if TYPE_CHECKING:
     from behaviours.stance.shape import Shape

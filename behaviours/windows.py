@@ -9,9 +9,9 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from numba import njit
 
 from engine.body.skeleton import HEAD, JOINT_COUNT, LEFT_CLAVICLE, LEFT_HIP, PARENT, PELVIS, RIGHT_HIP, SHOULDERS, Body
+from engine.maths.kernel import njit
 
 # trunk and limbs: a difference between their middles is never greater than that between their joints
 GROUPS = np.array([0] * LEFT_CLAVICLE + [1] * 4 + [2] * 4 + [3] * 4 + [4] * 4)

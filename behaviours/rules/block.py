@@ -10,11 +10,10 @@ from __future__ import annotations
 
 import math
 
-from numba import njit
-
 from engine.body.skeleton import LEFT
 from engine.maths import quaternion, vector
 from engine.maths.inner_kernel import inner_kernel
+from engine.maths.kernel import njit
 
 LINE_SOFTNESS_M = 0.05  # over which "the line is just within reach" becomes "it passes farther off"
 

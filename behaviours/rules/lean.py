@@ -4,10 +4,9 @@ the target.
 
 from __future__ import annotations
 
-from numba import njit
-
 from engine.body.skeleton import BACK, NECK, PELVIS, WAIST
 from engine.maths import quaternion
+from engine.maths.kernel import njit
 
 SPINE = (PELVIS, WAIST, BACK, NECK)
 

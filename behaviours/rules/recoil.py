@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-from numba import njit
-
 from engine.body.skeleton import CLAVICLES, ELBOWS, LEFT, SHOULDERS
 from engine.maths import quaternion
 from engine.maths.inner_kernel import inner_kernel
+from engine.maths.kernel import njit
 
 
 @inner_kernel

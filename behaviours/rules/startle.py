@@ -7,7 +7,6 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from numba import njit
 
 from behaviours.overlap import PAIRS, depths_into
 from behaviours.rules.recoil import raise_clavicle, retract_arm
@@ -17,6 +16,7 @@ from engine.body.kinematics import joints_of
 from engine.body.limits import clamp_keeping
 from engine.body.skeleton import CLAVICLES, ELBOWS, HEAD, LEFT, NECK, SHOULDERS, Body, Pose
 from engine.maths import quaternion
+from engine.maths.kernel import njit
 
 LIFT_RAD, LIFTS, HALVINGS = math.radians(6.0), 11, 8  # how far aside both arms are lifted out of the body, at most
 

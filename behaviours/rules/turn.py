@@ -4,11 +4,10 @@ from __future__ import annotations
 
 import math
 
-from numba import njit
-
 from behaviours.rules.lean import SPINE
 from engine.maths import quaternion
 from engine.maths.inner_kernel import inner_kernel
+from engine.maths.kernel import njit
 
 TURN_LEFT, TURN_RIGHT = 1.0, -1.0
 

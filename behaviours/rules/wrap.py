@@ -7,12 +7,11 @@ from __future__ import annotations
 
 import math
 
-from numba import njit
-
 from behaviours.rules.block import smooth_max
 from engine.body.skeleton import LEFT
 from engine.maths import quaternion, vector
 from engine.maths.inner_kernel import inner_kernel
+from engine.maths.kernel import njit
 
 
 @njit(cache=True)

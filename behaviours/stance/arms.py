@@ -6,12 +6,11 @@ from __future__ import annotations
 
 import math
 
-from numba import njit
-
 from engine.body import limb_ik, limits, two_bones
 from engine.body.skeleton import CLAVICLES, ELBOWS, SHOULDERS, WRISTS
 from engine.maths import quaternion, vector
 from engine.maths.inner_kernel import inner_kernel
+from engine.maths.kernel import njit
 
 # slots of an arm's parameters, radians; zeros are the neutral arm
 OUT, FORWARD, ELBOW, TURN, PALM, SWIVEL = range(6)

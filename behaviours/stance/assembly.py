@@ -9,7 +9,6 @@ from __future__ import annotations
 from typing import NamedTuple
 
 import numpy as np
-from numba import njit
 
 from behaviours.stance import arms, gaze, lower_body, torso
 from behaviours.stance.lower_body import LowerBody
@@ -17,6 +16,7 @@ from engine.body import kinematics
 from engine.body.skeleton import BACK, CLAVICLES, JOINT_COUNT, PELVIS, WAIST
 from engine.maths import quaternion
 from engine.maths.inner_kernel import inner_kernel
+from engine.maths.kernel import njit
 
 
 class Plan(NamedTuple):

@@ -10,13 +10,13 @@ import math
 from typing import NamedTuple
 
 import numpy as np
-from numba import njit
 
 from behaviours.stance import lower_body
 from behaviours.stance.assembly import assemble
 from engine.body.skeleton import PELVIS
 from engine.maths import quaternion, vector
 from engine.maths.inner_kernel import inner_kernel
+from engine.maths.kernel import njit
 
 # of what the hips move, the centre of mass moves about this share: the start of the search
 SHARE_OF_HIPS = 0.85

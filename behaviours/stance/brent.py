@@ -11,9 +11,9 @@ import math
 from typing import NamedTuple
 
 import numpy as np
-from numba import njit
 
 from engine.maths.inner_kernel import inner_kernel
+from engine.maths.kernel import njit
 
 GOLDEN = 0.5 * (3.0 - math.sqrt(5.0))  # share of the larger part that a golden section cuts off
 GROWTH = 1.0 / GOLDEN - 1.0  # each step of the bracketing is this much longer

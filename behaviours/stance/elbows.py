@@ -10,7 +10,6 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from numba import njit
 
 from behaviours.stance import brent
 from behaviours.stance.arms import reach
@@ -18,6 +17,7 @@ from engine.body import limb_ik, limits
 from engine.body.skeleton import ELBOWS, PARENT, SHOULDERS, WRISTS
 from engine.maths import quaternion, vector
 from engine.maths.inner_kernel import inner_kernel
+from engine.maths.kernel import njit
 
 MARGIN_RAD = math.radians(20.0)
 CROWDED = 5.0  # what a squared radian inside the margin costs against a squared radian of swivel

@@ -6,12 +6,12 @@ import math
 from typing import NamedTuple
 
 import numpy as np
-from numba import njit
 
 from engine.body import footing
 from engine.body.skeleton import HIPS, TOES
 from engine.maths import quaternion, vector
 from engine.maths.inner_kernel import inner_kernel
+from engine.maths.kernel import njit
 
 # feet of a neutral stance
 TOES_OUT_RAD = math.radians(7.0)

@@ -8,9 +8,8 @@ project X. Y, twist, +Y turns to the left: about project Z. A joint's three angl
 
 from __future__ import annotations
 
-from numba import njit
-
 from engine.body import limits
+from engine.maths.kernel import njit
 
 # row of `Body.limit_low_rad` for each paper axis X, Y, Z
 LIMIT_OF_AXIS = (1, 2, 0)

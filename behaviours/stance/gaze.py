@@ -4,13 +4,12 @@ from __future__ import annotations
 
 import math
 
-from numba import njit
-
 from behaviours import timing
 from engine.body import limits
 from engine.body.skeleton import BACK, HEAD, NECK
 from engine.maths import quaternion, vector
 from engine.maths.inner_kernel import inner_kernel
+from engine.maths.kernel import njit
 
 # the neck's share of a turn of the head; the rest is the head's own (limits: 3 to 1)
 NECK_SHARE = 0.7

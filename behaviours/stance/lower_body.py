@@ -12,12 +12,12 @@ import math
 from typing import NamedTuple
 
 import numpy as np
-from numba import njit
 
 from behaviours.stance import frame
 from engine.body.skeleton import ANKLES, HIPS, KNEES, PELVIS, TOES
 from engine.maths import quaternion, vector
 from engine.maths.inner_kernel import inner_kernel
+from engine.maths.kernel import njit
 
 # what gives where pelvis and knees cannot both be had
 TRADE_OFFS = ("knees_exact", "pelvis_exact")

@@ -11,9 +11,9 @@ from __future__ import annotations
 from typing import NamedTuple
 
 import numpy as np
-from numba import njit
 
 from engine.maths.inner_kernel import inner_kernel
+from engine.maths.kernel import njit
 
 
 class Side(NamedTuple):

@@ -15,7 +15,6 @@ from __future__ import annotations
 from typing import NamedTuple
 
 import numpy as np
-from numba import njit
 
 from behaviours.stance import balance, brent, torso, wrists
 from behaviours.stance.assembly import assemble
@@ -24,6 +23,7 @@ from behaviours.stance.yielding import give_way
 from engine.body.skeleton import SHOULDERS
 from engine.maths import vector
 from engine.maths.inner_kernel import inner_kernel
+from engine.maths.kernel import njit
 
 WITHIN = 1e-6  # the objective that counts as zero
 STOPS_IMPROVING = 0.03  # a cycle that gains less than this share of the objective is the last one

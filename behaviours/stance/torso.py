@@ -9,11 +9,11 @@ the same way, or *opposed*, one rigid unit.
 from __future__ import annotations
 
 import numpy as np
-from numba import njit
 
 from behaviours.stance import frame
 from engine.body.skeleton import BACK, CLAVICLES, HEAD, NECK, WAIST
 from engine.maths.inner_kernel import inner_kernel
+from engine.maths.kernel import njit
 
 SHAPE_CLASSES = ("Straight", "LargeS", "LargeC", "SmallS", "SmallC")
 STRAIGHT, LARGE_S, LARGE_C, SMALL_S, SMALL_C = SHAPE_CLASSES

@@ -6,14 +6,13 @@ from __future__ import annotations
 
 import math
 
-from numba import njit
-
 from behaviours.stance import arms, balance, elbows
 from behaviours.stance.assembly import assemble
 from engine.body import kinematics
 from engine.body.skeleton import SHOULDERS
 from engine.maths import vector
 from engine.maths.inner_kernel import inner_kernel
+from engine.maths.kernel import njit
 
 # rows of the (3, 2) array of wrists: how far each is from its target, metres; the swivel taken; the strain, radians
 MISS, SWIVEL, STRAIN = range(3)

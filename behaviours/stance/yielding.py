@@ -12,7 +12,6 @@ from __future__ import annotations
 from typing import NamedTuple
 
 import numpy as np
-from numba import njit
 
 from behaviours import minimise
 from behaviours.stance import penalty
@@ -22,6 +21,7 @@ from behaviours.stance.wrists import finish, lacks_at
 from engine.body.skeleton import Body
 from engine.maths.copying import copy_into
 from engine.maths.inner_kernel import inner_kernel
+from engine.maths.kernel import njit
 
 LACK_WEIGHT = 1e4  # what a metre of lack counts against a wish moved to its far point
 MOST_STEPS = 6  # of Gauss-Newton

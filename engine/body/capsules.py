@@ -11,7 +11,6 @@ import math
 from typing import NamedTuple
 
 import numpy as np
-from numba import njit
 
 from engine.body.anthropometry import stature_m
 from engine.body.skeleton import (
@@ -31,6 +30,7 @@ from engine.body.skeleton import (
     Body,
 )
 from engine.maths import quaternion, vector
+from engine.maths.kernel import njit
 
 FLESH_KGPM3 = 1050.0
 

@@ -4,12 +4,11 @@ from __future__ import annotations
 
 import math
 
-from numba import njit
-
 from engine.body import support
 from engine.body.skeleton import ANKLES, HIPS, KNEES, TOES
 from engine.maths import quaternion, vector
 from engine.maths.inner_kernel import inner_kernel
+from engine.maths.kernel import njit
 
 LEG_SOFT_M = 0.006  # a leg straightens over this length, instead of snapping straight
 

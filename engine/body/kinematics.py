@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import numpy as np
-from numba import njit
 
 from engine.body.skeleton import JOINT_COUNT, PARENT, Pose
 from engine.maths import quaternion, vector
+from engine.maths.kernel import njit
 
 
 @njit(cache=True)

@@ -9,12 +9,11 @@ from __future__ import annotations
 
 import math
 
-from numba import njit
-
 from engine.body.skeleton import ANKLES, CLAVICLES, ELBOWS, HIPS, KNEES, PELVIS, SHOULDERS, TOES, WRISTS
 from engine.body.two_bones import KEEP, SOFT_REACH_M, carried_zero, solve_limb, swivel_of
 from engine.maths import quaternion, vector
 from engine.maths.inner_kernel import inner_kernel
+from engine.maths.kernel import njit
 
 __all__ = [
     "CARRIED", "DOWN", "KEEP", "SOFT_REACH_M", "apply_arm", "apply_leg", "arm_onto", "arm_swivel", "arm_zero",

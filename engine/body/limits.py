@@ -17,11 +17,11 @@ joints have (carrying angle of the elbow, varus and valgus of the knee ...).
 from __future__ import annotations
 
 import numpy as np
-from numba import njit
 
 from engine.body.skeleton import JOINT_COUNT, MIRRORED, joint_index
 from engine.maths import quaternion
 from engine.maths.inner_kernel import inner_kernel
+from engine.maths.kernel import njit
 
 # joint: ((low, high) of swing X, swing Y, twist Z) in degrees; left side given, the right one is its mirror image.
 # Positive Y bows the trunk, flexes the knee and points the foot; negative Y lifts arm and thigh forward and flexes the

@@ -9,11 +9,11 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from numba import njit
 
 from engine.body.skeleton import ANKLES, SOLE_POINTS, TOES
 from engine.maths import quaternion, vector
 from engine.maths.inner_kernel import inner_kernel
+from engine.maths.kernel import njit
 
 CONTACT_M = 0.03  # a sole point this much above its foot's lowest one still bears: flesh gives way, and clips are noisy
 _FIRST_TOE_POINT = SOLE_POINTS.index("toe_inner")

@@ -16,10 +16,9 @@ from __future__ import annotations
 
 import math
 
-from numba import njit
-
 from engine.maths import quaternion, vector
 from engine.maths.inner_kernel import inner_kernel
+from engine.maths.kernel import njit
 
 SOFT_REACH_M = 0.01  # spec A4: reach saturates over 1 cm
 STRAIGHT_NOISE_RAD = 5e-8  # what the last bit of a straight limb's length makes of its angle

@@ -5,11 +5,11 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from numba import njit
 
 from engine.body.skeleton import JOINT_COUNT, Pose
 from engine.clips.clip import Clip
 from engine.maths.inner_kernel import inner_kernel
+from engine.maths.kernel import njit
 
 
 def sample(clip: Clip, time_s: float) -> Pose:

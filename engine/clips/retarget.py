@@ -11,7 +11,6 @@ import hashlib
 from dataclasses import replace
 
 import numpy as np
-from numba import njit
 
 from engine.body.anthropometry import stature_m
 from engine.body.footing import drop_to_reach, leg_length_m, lowest_m
@@ -22,6 +21,7 @@ from engine.body.support import sole_points
 from engine.clips.clip import Clip
 from engine.maths import quaternion
 from engine.maths.inner_kernel import inner_kernel
+from engine.maths.kernel import njit
 
 KNEELING, CROUCHING = 0.12, 0.35  # a knee's height in shares of the leg: it bears weight, or the foot alone does
 

@@ -4,9 +4,8 @@ from __future__ import annotations
 
 import math
 
-from numba import njit
-
 from engine.maths.inner_kernel import inner_kernel
+from engine.maths.kernel import njit
 
 GRAVITY_MPS2 = (0.0, 0.0, -9.80665)
 AIR_KGPM3 = 1.204  # at 20 degrees

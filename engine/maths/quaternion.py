@@ -9,9 +9,8 @@ from __future__ import annotations
 
 import math
 
-from numba import njit
-
 from engine.maths.inner_kernel import inner_kernel
+from engine.maths.kernel import njit
 
 IDENTITY = (1.0, 0.0, 0.0, 0.0)
 

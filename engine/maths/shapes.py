@@ -7,9 +7,8 @@ from __future__ import annotations
 
 import math
 
-from numba import njit
-
 from engine.maths import vector
+from engine.maths.kernel import njit
 
 NO_HIT = -1.0
 _TOUCH_M = 1e-9

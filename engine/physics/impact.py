@@ -13,11 +13,11 @@ from typing import NamedTuple
 
 import mujoco
 import numpy as np
-from numba import njit
 
 from engine.body.capsules import CAPSULES, Capsules, capsules_at
 from engine.maths import quaternion, shapes, vector
 from engine.maths.inner_kernel import inner_kernel
+from engine.maths.kernel import njit
 from engine.physics import ragdoll, stops
 from engine.physics.model import RagdollModel
 from engine.physics.ragdoll import Push

@@ -6,12 +6,11 @@ away from there.
 
 from __future__ import annotations
 
-from numba import njit
-
 from engine.body.limits import components
 from engine.body.skeleton import JOINT_COUNT
 from engine.maths import quaternion
 from engine.maths.inner_kernel import inner_kernel
+from engine.maths.kernel import njit
 
 NEAR_RAD = 0.4  # of its limit: nothing turns farther than this in `stops.EASE_S`
 CREEP_RADPS = 0.3

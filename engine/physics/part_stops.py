@@ -7,12 +7,12 @@ nearest places grows.
 from __future__ import annotations
 
 import numpy as np
-from numba import njit
 
 from engine.body.capsules import CAPSULES, capsules_at
 from engine.body.skeleton import JOINT_COUNT, PARENT
 from engine.maths import quaternion, shapes, vector
 from engine.maths.inner_kernel import inner_kernel
+from engine.maths.kernel import njit
 from engine.physics.rows import rate_of
 from engine.physics.tracking import world_frames
 

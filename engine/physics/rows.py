@@ -1,6 +1,6 @@
 """A row (nv,): how fast something grows, by the velocities of a body. What stops and blows are reckoned in."""
 
-from numba import njit
+from engine.maths.kernel import njit
 
 MOST_ROWS = 48  # more stops than this at once are those of a body that is nowhere near a person's pose
 

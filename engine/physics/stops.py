@@ -19,10 +19,10 @@ import math
 
 import mujoco
 import numpy as np
-from numba import njit
 
 from engine.body.skeleton import JOINT_COUNT, PARENT
 from engine.maths.inner_kernel import inner_kernel
+from engine.maths.kernel import njit
 from engine.physics.limit_stops import NEAR_RAD, TOUCHING_RAD, limits_into
 from engine.physics.part_stops import FARTHEST_M, TOUCHING_M, parts_into
 from engine.physics.rows import MOST_ROWS, rate_of

@@ -17,12 +17,12 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from numba import njit
 
 from engine.body.limits import clamp_keeping
 from engine.body.skeleton import JOINT_COUNT
 from engine.maths import quaternion, vector
 from engine.maths.inner_kernel import inner_kernel
+from engine.maths.kernel import njit
 
 SERVO_HZ = 3.5  # at strength 1: settles in about 0.1 s, as braced muscle with its reflexes does
 LIGAMENT_HZ = 8.0

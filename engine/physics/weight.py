@@ -11,12 +11,12 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from numba import njit
 
 from engine.body.skeleton import ANKLES, JOINT_COUNT
 from engine.body.support import bearing, sole_points
 from engine.maths import quaternion, vector
 from engine.maths.inner_kernel import inner_kernel
+from engine.maths.kernel import njit
 from engine.physics.tracking import world_frames
 
 BEARS_M = 0.02  # a foot whose lowest point is nearer to the floor than this stands

@@ -2,6 +2,7 @@
 
 import ast
 import os
+import re
 
 import pytest
 
@@ -121,3 +122,10 @@ def test_no_kernel_assigns_an_array_to_a_slice():
     rooms = [path for room in ("engine", "behaviours", "demos") for path in sorted((ROOT / room).rglob("*.py"))]
     found = {path.relative_to(ROOT).as_posix(): list(slices_that_take_an_array(path.read_text())) for path in rooms}
     assert not {name: lines for name, lines in found.items() if lines}
+
+
+def test_every_kernel_of_ours_is_of_the_sparing_kind():
+    """Numba's own decorator would compile a way in from Python for each version that a kernel calls."""
+    rooms = [path for room in ("engine", "behaviours", "demos") for path in sorted((ROOT / room).rglob("*.py"))]
+    own = [path for path in rooms if re.search(r"^from numba import\b.*\bnjit\b", path.read_text(), re.MULTILINE)]
+    assert not own
