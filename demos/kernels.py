@@ -71,6 +71,13 @@ def _imported(text: str, known: dict[str, Path]) -> set[str]:
     return found & known.keys()
 
 
+def get_kernels_ready() -> None:
+    """Before a command's first kernel: they match their sources, and at a terminal one sees what must be compiled."""
+    forget_stale()
+    if sys.stderr.isatty():
+        announce_compiling()
+
+
 def announce_compiling() -> None:
     """From now on whoever sits at a terminal sees which kernel is being compiled."""
     names: list[str] = []

@@ -12,7 +12,7 @@ from typing import Any, TypeVar
 from behaviours.library import library_names
 from behaviours.scenario import CharacterSpec, Scenario, check_scenario, load_scenario, parse_scenario
 from behaviours.simulation import Simulation, apply_command
-from demos.kernels import announce_compiling, forget_stale
+from demos.kernels import get_kernels_ready
 from demos.scenarios import FOLDER, PROGRAMS, find_scenario
 from engine.clips.clip import Clip
 from engine.clips.library import find_clip
@@ -51,9 +51,7 @@ def with_clips_from_here(overrides: Sequence[str], folder: Path) -> list[str]:
 
 def start(scenario: Scenario, folder: Path, observe: bool = False) -> Simulation:
     """The scenario at its first tick, with kernels that match their sources; with `observe`, able to report."""
-    forget_stale()
-    if sys.stderr.isatty():
-        announce_compiling()
+    get_kernels_ready()
 
     def find(spec: CharacterSpec) -> Clip:
         return find_clip(spec.clip, relative_to=folder, sex=spec.sex, body_mass_kg=spec.mass_kg)

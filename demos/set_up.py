@@ -10,6 +10,7 @@ import os
 import subprocess
 import sys
 import time
+from typing import Any
 
 from demos.cli import guarded
 from demos.kernels import on_compiling, terminal_line
@@ -22,7 +23,7 @@ def main() -> None:
         fetch_clips()
     if "kernels" in sys.argv[1:]:
         compile_kernels()
-    for part in PARTS:
+    for part in (*PARTS, *LATER):
         if f"kernels-{part}" in sys.argv[1:]:
             _compile_part(part)
 
@@ -51,6 +52,19 @@ def compile_kernels() -> None:
     on_compiling(lambda name: compiled.append(name) if name else None)
     _run("sway")
     _say(f"{count + len(compiled)} kernels compiled in {time.monotonic() - begun:.0f} s")
+    if count + len(compiled):
+        _compile_later()
+
+
+def _compile_later() -> subprocess.Popen:
+    """Has what no first picture needs compiled behind it, when nothing else runs; who is quicker compiles it then.
+
+    It outlives the command that it began with, and so keeps no stream of it open.
+    """
+    quiet: dict[str, Any] = dict.fromkeys(("stdin", "stdout", "stderr"), subprocess.DEVNULL)
+    words = [f"kernels-{part}" for part in LATER]
+    command = [sys.executable, "-P", "-m", "demos.set_up", *words]
+    return subprocess.Popen(command, start_new_session=True, preexec_fn=lambda: os.nice(19), **quiet)
 
 
 def _compile_parts() -> int:
@@ -70,10 +84,10 @@ def _compile_parts() -> int:
 
 
 def _compile_part(part: str) -> None:
-    """One of PARTS; the name of every kernel goes to standard output."""
+    """One of PARTS or LATER; the name of every kernel goes to standard output."""
     on_compiling(lambda name: print(name, flush=True) if name else None)
     _tidy_seldom()
-    PARTS[part]()
+    (PARTS | LATER)[part]()
 
 
 def _tidy_seldom() -> None:
@@ -113,7 +127,8 @@ def _sculpt() -> None:
                 mesh_cache.cached_mesh(find_clip(clip.name).body, coarser)
 
 
-PARTS = {"protection": _protect, "blow": _be_struck, "stance": _stand, "figures": _sculpt}
+PARTS = {"protection": _protect, "blow": _be_struck, "figures": _sculpt}
+LATER = {"stance": _stand}
 MOSTLY_SEEN = (1.4, 2.0)  # of engine.render.passes.figures.DETAIL: a person fills the height of a film, or half of it
 
 

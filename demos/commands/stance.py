@@ -50,6 +50,7 @@ def register(subparsers) -> None:
 def run(args: argparse.Namespace) -> None:
     from behaviours.stance import report
     from behaviours.stance.shape_sets import SETS, meaning_of
+    from demos.kernels import get_kernels_ready
     from engine.core.errors import BadInput
 
     if args.list:
@@ -59,6 +60,7 @@ def run(args: argparse.Namespace) -> None:
             )
         )
         return
+    get_kernels_ready()
     if args.crouch:
         _run_crouch(args)
         return

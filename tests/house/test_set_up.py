@@ -1,9 +1,11 @@
 """What set-up does once packages are there: clips that need not come, kernels compiled in parts."""
 
+import os
 import subprocess
 import sys
 
 import numpy as np
+import pytest
 from numba import njit
 
 from demos import set_up
@@ -41,6 +43,35 @@ def test_all_parts_run_and_their_kernels_are_counted(monkeypatch, tmp_path):
     assert set_up._compile_parts() == 2 * len(set_up.PARTS)
     calls = (tmp_path / "calls").read_text().splitlines()
     assert sorted(calls) == [f"-P -m demos.set_up kernels-{part}" for part in sorted(set_up.PARTS)]
+
+
+def test_what_no_first_picture_needs_is_compiled_behind_it(monkeypatch, tmp_path):
+    """By a process that is in nobody's way and holds no stream open that somebody may read to its end."""
+    stand_in, said = tmp_path / "python", tmp_path / "said"
+    stand_in.write_text(
+        "#!/bin/sh\nstreams=$(readlink /proc/$$/fd/1 /proc/$$/fd/2 | sort -u)\nsession=$(cut -d' ' -f6 /proc/$$/stat)\n"
+        f'echo "$*" "$(nice)" "$session" "$streams" >{said}\n'
+    )
+    stand_in.chmod(0o755)
+    monkeypatch.setattr(sys, "executable", str(stand_in))
+    assert set_up._compile_later().wait(60.0) == 0
+    *words, nice, session, streams = said.read_text().split()
+    assert words == ["-P", "-m", "demos.set_up", "kernels-stance"]
+    assert (int(nice), streams) == (19, "/dev/null")
+    assert int(session) != os.getsid(0)
+
+
+@pytest.mark.parametrize(("in_parts", "later"), [(0, 0), (7, 1)])
+def test_nothing_goes_on_behind_where_nothing_was_to_compile(monkeypatch, in_parts, later):
+    begun = []
+    monkeypatch.setattr(set_up, "_compile_parts", lambda: in_parts)
+    monkeypatch.setattr(set_up, "_run", lambda scenario: None)
+    monkeypatch.setattr(set_up, "_tidy_seldom", lambda: None)
+    monkeypatch.setattr(set_up, "on_compiling", lambda tell: None)
+    monkeypatch.setattr(set_up, "_compile_later", lambda: begun.append(1))
+    monkeypatch.setattr(os, "sched_getaffinity", lambda process: {0, 1})
+    set_up.compile_kernels()
+    assert len(begun) == later
 
 
 def test_figures_are_sculpted_ahead_as_pictures_want_them(monkeypatch, tmp_path):
