@@ -34,7 +34,7 @@ def main() -> None:
             before_throw = world.snapshot()  # all state there is
             velocity = velocity_towards(FROM_M, place_of(world, "head", row), SPEED_MPS)
             apply_command(world, {"do": "throw", "position_m": FROM_M, "velocity_mps": velocity})
-        if time_s == REWIND_AT_S:
+        if time_s == REWIND_AT_S and before_throw is not None:
             print("rewound to before the throw")
             world.restore(before_throw)
 
