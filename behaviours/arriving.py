@@ -3,8 +3,8 @@
 When the ball comes the body is still on its way into the sustained pose. What it has beyond that pose then, in place
 and velocity, is kept, and the servos follow it as it dies away, like what is left at any seam
 (`behaviours.inertialise`). So muscles damp what the blow adds, not the movement that they make themselves. It swings a
-little beyond the pose, less where a joint has less room before its limit, and not at all with a foot that is about to
-come down.
+little beyond the pose, less where a joint has less room before its limit, and not at all with an arm, or a
+foot that is about to come down.
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ from behaviours.playing import body_of
 from behaviours.seams import MOMENT
 from behaviours.timing import TICK_S
 from engine.body.limits import clamp_keeping, components
-from engine.body.skeleton import ANKLES, HIPS, JOINT_COUNT, KNEES, Pose
+from engine.body.skeleton import ANKLES, CLAVICLES, ELBOWS, HIPS, JOINT_COUNT, KNEES, SHOULDERS, WRISTS, Pose
 from engine.maths import quaternion, vector
 from engine.maths.inner_kernel import inner_kernel
 from engine.maths.kernel import njit
@@ -56,13 +56,14 @@ def arriving(world, row: int, tick: int, held: Pose) -> Pose:
 @njit(cache=True)
 def measure(body, held, now, ahead, dt_s, most_s, stands, arriving, half_life_s):
     """Fills in turns and velocities (2, J, 3) beyond held rotations (J, 4), of ones that go from now to ahead in dt_s,
-    and half-lives (J,), `most_s` or what the limits ask for. A leg whose foot does not stand (2,) goes no farther than
-    its pose: below that is the floor.
+    and half-lives (J,), `most_s` or what the limits ask for. Arms, and legs whose foot does not stand (2,), go no
+    farther than their pose: beyond it is the own body, or the floor.
     """
     for j in range(JOINT_COUNT):
-        in_the_air = False
+        no_farther = False
         for side in range(2):
-            in_the_air |= not stands[side] and j in (HIPS[side], KNEES[side], ANKLES[side])
+            no_farther |= j in (CLAVICLES[side], SHOULDERS[side], ELBOWS[side], WRISTS[side])
+            no_farther |= not stands[side] and j in (HIPS[side], KNEES[side], ANKLES[side])
         turn, later = turn_from(held[j], now[j]), turn_from(held[j], ahead[j])
         a, b, c = components(held[j]), components(now[j]), components(ahead[j])
         half_life_s[j] = most_s
@@ -73,7 +74,7 @@ def measure(body, held, now, ahead, dt_s, most_s, stands, arriving, half_life_s)
             if j > 0:
                 rate = abs(c[k] - b[k]) / dt_s
                 own_s = half_life_within(
-                    sign * (b[k] - a[k]) + rate * LAG_S, rate, 0.0 if in_the_air else max(room, 0.0), most_s
+                    sign * (b[k] - a[k]) + rate * LAG_S, rate, 0.0 if no_farther else max(room, 0.0), most_s
                 )
                 half_life_s[j] = min(half_life_s[j], own_s)
 

@@ -19,6 +19,7 @@ from engine.physics.tracking import world_frames
 NEAR_MPS = 0.05  # a bound that is met by less than this may be broken by the impulses of others: it is kept in view
 CREEP_MPS = 0.02
 FARTHEST_M = 0.15  # nothing within a body closes faster than this in `stops.EASE_S`
+AT_FIRST = 0.75  # of the speed over the time that is left; a half would be an even brake
 FLESH_M = 0.004  # what gives between two parts that are thrown together, of the soft tissue on both, before it is hard
 LEAST_APART_M = 1e-6  # of two axes: nearer than this, there is no saying which way is out
 TOUCHING_M = 0.01  # what a blow closes at once: this counts as touching
@@ -107,11 +108,13 @@ def parts_into(parent, offset_m, capsules, pairs, qpos, qvel, ease_s, h, limp, f
 
 @njit(cache=True)
 def may_close_mps(gap_m, closing_mps, ease_s, h):
-    """How fast two parts may close: as stops have it, or, faster than that, braked evenly within gap and flesh."""
+    """How fast two parts may close: as stops have it, or, faster than that, braked within gap and flesh, harder at
+    first than at last: what throws them together mostly still pushes.
+    """
     cap_mps, left_m = max(gap_m, 0.0) / ease_s, gap_m + FLESH_M
     if closing_mps <= cap_mps or left_m <= 0.0:
         return cap_mps
-    return max(cap_mps, closing_mps * (1.0 - 0.5 * closing_mps * h / left_m))
+    return max(cap_mps, closing_mps * (1.0 - AT_FIRST * closing_mps * h / left_m))
 
 
 @njit(cache=True)
