@@ -9,6 +9,7 @@ from enum import IntEnum
 
 import numpy as np
 
+from behaviours.overlap import PAIRS
 from engine.body.skeleton import JOINT_COUNT
 from engine.core.world import Component, column
 from engine.physics.layout import SHAPES, STATE_SIZE, SUB_STEPS
@@ -190,7 +191,8 @@ class Residual(Component):
     joints = column(2, JOINT_COUNT, 3)
     ankles = column(2, 2, 3)
     ankle_turns = column(2, 2, 3)
-    stretch = column(2, 2)  # and how much longer either leg was than the source's
+    stretch = column(2, 2)  # how much longer either leg was than the source's,
+    deeper_m = column(len(PAIRS))  # and how much deeper arms were in the body, for each of `behaviours.overlap.PAIRS`
 
 
 class Flight(Component):

@@ -14,6 +14,8 @@ import numpy as np
 from behaviours import inertialise
 from behaviours.components import Posture, Residual
 from behaviours.held_feet import FootGoals, legs_to
+from behaviours.playing import capsules_of
+from behaviours.pushed_out import deeper_into
 from behaviours.timing import TICK_S
 from engine.body.kinematics import joints_of
 from engine.body.skeleton import ANKLES, TOES, Body, Pose
@@ -54,6 +56,7 @@ def begin_seam(world, row: int, tick: int, body: Body, shown_before: Pose, sourc
     r, moment_s = world[Residual], MOMENT * TICK_S
     r.since[row] = tick - 1
     inertialise.measure_seam(*source.pose, *source.later, *now, *ahead, moment_s, r.root[row], r.joints[row])
+    deeper_into(body, capsules_of(world, row), source.pose.rotations, now.rotations, r.deeper_m[row])
     _keep_ankles(r, row, body, now, ahead, source, moment_s)
 
 

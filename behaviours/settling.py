@@ -24,7 +24,8 @@ from behaviours.components import (
 )
 from behaviours.held_feet import LEG_SOFT_M, drop_beyond_own, legs_to
 from behaviours.inertialise import add_remaining, nothing_left, remaining, remaining2, turned_by
-from behaviours.playing import body_of, clip_time_s, planted_in_clip
+from behaviours.playing import body_of, capsules_of, clip_time_s, planted_in_clip
+from behaviours.pushed_out import keep_arms_out
 from behaviours.sources import foot_goals, note_knees, source_pose
 from engine.body.kinematics import joints_into
 from engine.body.limb_ik import apply_leg, leg_swivel
@@ -36,7 +37,9 @@ from engine.maths.inner_kernel import inner_kernel
 from engine.maths.kernel import njit
 
 BELONGINGS = (Ragdoll, Blow, Residual, Blend, Feet, Sustained, Playback)  # what a pose is made from
-OLD_SHARE = 0.5  # of the residual's half-life: how long what the old motion had beyond a limit is let be
+OLD_SHARE = (
+    0.5  # of the residual's half-life: how long what the old motion had beyond a limit, or inside the body, is let be
+)
 KNEE_PLAY_RAD = 0.05  # what a knee gives beyond its limits, so that one that is straight anyway does not catch
 
 
@@ -187,6 +190,10 @@ def settled_pose(world, row: int, tick: float) -> tuple[np.ndarray, np.ndarray]:
     unaltered = source.rotations.copy()
     add_remaining(source.root_m, source.rotations, r.root[row], r.joints[row], elapsed_s, half_life_s)
     keep_joints(body, unaltered, r.joints[row, 0], elapsed_s, half_life_s, source.rotations)
+    old_s = OLD_SHARE * half_life_s
+    keep_arms_out(
+        body, capsules_of(world, row), unaltered, r.deeper_m[row], elapsed_s, old_s, source.root_m, source.rotations
+    )
     keep_knees(body, unaltered, source.rotations)
     goals_with_residual(goals.ankle_m, goals.turned, r.ankles[row], r.ankle_turns[row], elapsed_s, half_life_s)
     stand_on(body, source.root_m, source.rotations, goals.ankle_m, goals.turned, goals.bears, own_lengths)

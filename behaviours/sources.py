@@ -9,14 +9,16 @@ from __future__ import annotations
 
 import numpy as np
 
-from behaviours.arm_ways import HandWays, straight_ways, swung_ways
+from behaviours.arm_ways import SWUNG, HandWays, straight_ways, swung_ways
 from behaviours.blending import BlendEnd, blend_end, blend_into
 from behaviours.components import NOBODY, Blend, Character, Feet, Phase, Posture, Ragdoll, Reaction
 from behaviours.feet import goals_of
-from behaviours.hand_ways import MOMENTS, choose_ways, moments_of
+from behaviours.hand_ways import MOMENTS, choose_ways, let_be, moments_of
 from behaviours.held_feet import FootGoals, knees_between
 from behaviours.lying import blend_lying
+from behaviours.overlap import PAIRS
 from behaviours.playing import body_of, capsules_of, clip_pose, clip_time_s
+from behaviours.pushed_out import push_arms_out
 from behaviours.timing import TICK_S, ease, overshoot, whole_ticks
 from engine.body.kinematics import joints_of
 from engine.body.skeleton import ANKLES, HIPS, JOINT_COUNT, KNEES, TOES, WAIST, Pose
@@ -67,7 +69,18 @@ def blended(world, row: int, tick: float) -> tuple[Pose, tuple[float, float]]:
     start, end = blend_ends(world, row, tick)
     least = world.assets.settings.blend.knee_rule == "least"
     knees = knees_between(start, end, least, world[Blend].knees_m[row])
-    return between(world, row, tick, start, end, weight, ways_of(world[Blend], row), knees)
+    ways = ways_of(world[Blend], row)
+    pose, led_m = between(world, row, tick, start, end, weight, ways, knees)
+    clear_swung_arms(world, row, start, end, weight, ways, pose)
+    return pose, led_m
+
+
+def clear_swung_arms(world, row, start, end, weight, ways, pose) -> None:
+    """Pushes arms that are swung, and have no line to keep to, out of the body where their way leads into it."""
+    if (ways.modes == SWUNG).any():
+        allowed_m = np.empty(len(PAIRS))
+        let_be(start.depths_m, end.depths_m, weight, allowed_m)
+        push_arms_out(body_of(world, row), capsules_of(world, row), allowed_m, ways.modes == SWUNG, *pose)
 
 
 def blend_ends(world, row: int, tick: float) -> tuple[BlendEnd, BlendEnd]:
@@ -106,7 +119,9 @@ def simulation_into_sustained(world, row: int, tick: float) -> Pose:
     start = blend_end(body, shape, simulated.root_m, simulated.rotations)
     end = blend_end(body, shape, returning.root_m, returning.rotations)
     knees = knees_between(start, end, False, world[Blend].knees_m[row])
-    return between(world, row, tick, start, end, weight, swung_ways(), knees)[0]
+    pose = between(world, row, tick, start, end, weight, swung_ways(), knees)[0]
+    clear_swung_arms(world, row, start, end, weight, swung_ways(), pose)
+    return pose
 
 
 def between(world, row, tick, start, end, weight, ways, knees) -> tuple[Pose, tuple[float, float]]:

@@ -16,7 +16,9 @@ from engine.maths.kernel import njit
 from engine.physics.rows import rate_of
 from engine.physics.tracking import world_frames
 
-NEAR_MPS = 0.05  # a bound that is met by less than this may be broken by the impulses of others: it is kept in view
+# what others' impulses may break is kept in view: a bound that is met by less than this, and parts this near each
+# other, however fast they part, since an elbow that meets its limit throws a hand back
+NEAR_MPS, IN_VIEW_M = 0.05, 0.01
 CREEP_MPS = 0.02
 FARTHEST_M = 0.15  # nothing within a body closes faster than this in `stops.EASE_S`
 AT_FIRST = 0.75  # of the speed over the time that is left; a half would be an even brake
@@ -99,7 +101,7 @@ def parts_into(parent, offset_m, capsules, pairs, qpos, qvel, ease_s, h, limp, f
         _add_place(parent, positions, orientations, capsules.joint[b], on_b, normal, -1.0, row)
         rate_mps = rate_of(row, qvel)
         least[count] = -may_close_mps(gap_m, -rate_mps, ease_s, h) - limp * CREEP_MPS
-        if rate_mps < least[count] + NEAR_MPS:
+        if gap_m < IN_VIEW_M or rate_mps < least[count] + NEAR_MPS:
             count += 1
         else:
             row[:] = 0.0

@@ -71,6 +71,16 @@ def test_limp_and_whirling_no_joint_passes_its_limits_and_no_arm_goes_in(seed):
         assert (depths_m(state) - began).max() < 0.005
 
 
+@pytest.mark.parametrize("seed", [1, 3, 4])
+def test_a_joint_that_meets_its_limit_throws_no_arm_into_the_body(seed):
+    """Spins of 15 rad/s: what stops one thing hits another that was parting just now."""
+    pose, state = whirling(np.random.default_rng(seed), 15.0)
+    began = depths_m(state)
+    for _ in range(30):
+        state = ragdoll.step(MODEL, state, pose, 0.0, 1.0, TICK_S)
+        assert (depths_m(state) - began).max() < 0.001
+
+
 def hands_thrown_at_the_face():
     """States of 24 ticks, a ball's impulse against both hands from ahead in the first two."""
     pose = guarding()
