@@ -86,6 +86,8 @@ class Blend(Component):
     support = column(dtype=np.int64)  # the primary support foot: side 0 or 1, or NOBODY: both ends lie
     modes = column(2, dtype=np.int64)  # left, right: how the arms go, see `behaviours.arm_ways`,
     bends = column(2, 2, 4)  # and how far their ways are bent, radians
+    first_modes = column(2, dtype=np.int64)  # likewise in part one of recovery, from the simulation into this blend
+    first_bends = column(2, 2, 4)
     knees_m = column(2, 3)  # where the knees were at the last tick
 
 

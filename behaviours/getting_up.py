@@ -17,6 +17,7 @@ from behaviours.reaction import STATE, enter, keep_continuous, moment_before
 from behaviours.recovery import return_clip_s
 from behaviours.seams import shown
 from behaviours.search import Found, best_window, enter_window, say_found, window_since_blow
+from behaviours.sources import choose_first_ways, choose_hand_ways
 from behaviours.timing import TICK_S, whole_ticks
 from behaviours.windows import joint_shares
 from engine.core.schedule import Stage, system
@@ -70,5 +71,7 @@ def begin_getting_up(world, row: int, tick: int, found: Found) -> None:
     s.root_m[row], s.rotations[row] = begins
     for side in range(2):
         foot_plan.let_go(world[Feet], row, side)
+    choose_hand_ways(world, row)
+    choose_first_ways(world, row, tick)
     enter(world, row, tick, Phase.RECOVER_BLEND)
     keep_continuous(world, row, tick, old)

@@ -18,7 +18,7 @@ from behaviours.components import Blend, Feet, Playback, Reaction, Sustained
 from behaviours.placing import placed
 from behaviours.playing import body_of, clip_pose, planted_in_clip, play_from
 from behaviours.seams import shown
-from behaviours.sources import choose_hand_ways
+from behaviours.sources import choose_first_ways, choose_hand_ways
 from behaviours.timing import TICK_S, whole_ticks
 from engine.body import footing
 from engine.body.kinematics import com_of, joints_of
@@ -47,6 +47,7 @@ def begin_recovery(world, row: int, tick: int) -> None:
     part_one = whole_ticks(recovery.part_one_s)
     begins = tick - 1 + part_one - recovery.part_one_share * return_blend_ticks(world)
     plan_return(world, row, tick, begins)
+    choose_first_ways(world, row, tick)
 
 
 def begin_return(world, row: int, tick: int) -> None:

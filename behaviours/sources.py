@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from behaviours.arm_ways import SWUNG, HandWays, straight_ways, swung_ways
+from behaviours.arm_ways import HandWays, straight_ways, swung_ways
 from behaviours.blending import BlendEnd, blend_end, blend_into
 from behaviours.components import NOBODY, Blend, Character, Feet, Phase, Posture, Ragdoll, Reaction
 from behaviours.feet import goals_of
@@ -18,7 +18,7 @@ from behaviours.held_feet import FootGoals, knees_between
 from behaviours.lying import blend_lying
 from behaviours.overlap import PAIRS
 from behaviours.playing import body_of, capsules_of, clip_pose, clip_time_s
-from behaviours.pushed_out import push_arms_out
+from behaviours.pushed_out import let_lines_be, push_arms_out
 from behaviours.timing import TICK_S, ease, overshoot, whole_ticks
 from engine.body.kinematics import joints_of
 from engine.body.skeleton import ANKLES, HIPS, JOINT_COUNT, KNEES, TOES, WAIST, Pose
@@ -60,7 +60,7 @@ def blended_pose(world, row: int, tick: float) -> Pose:
 
 
 def blended(world, row: int, tick: float) -> tuple[Pose, tuple[float, float]]:
-    """The same, and how far its joints' limits keep either hand off its way, metres."""
+    """The same, and how far limits of joints, or the body, keep either hand off its way, metres."""
     weight = ease((tick - world[Blend].since[row]) / world[Blend].ticks[row])
     if world[Reaction].phase[row] in PAUSING:
         after_s = float(tick - world[Blend].since[row] - world[Blend].ticks[row]) * TICK_S
@@ -71,16 +71,18 @@ def blended(world, row: int, tick: float) -> tuple[Pose, tuple[float, float]]:
     knees = knees_between(start, end, least, world[Blend].knees_m[row])
     ways = ways_of(world[Blend], row)
     pose, led_m = between(world, row, tick, start, end, weight, ways, knees)
-    clear_swung_arms(world, row, start, end, weight, ways, pose)
-    return pose, led_m
+    pushed_m = keep_out(world, row, start, end, weight, ways, pose)
+    return pose, (max(led_m[0], pushed_m[0]), max(led_m[1], pushed_m[1]))
 
 
-def clear_swung_arms(world, row, start, end, weight, ways, pose) -> None:
-    """Pushes arms that are swung, and have no line to keep to, out of the body where their way leads into it."""
-    if (ways.modes == SWUNG).any():
-        allowed_m = np.empty(len(PAIRS))
-        let_be(start.depths_m, end.depths_m, weight, allowed_m)
-        push_arms_out(body_of(world, row), capsules_of(world, row), allowed_m, ways.modes == SWUNG, *pose)
+def keep_out(world, row, start, end, weight, ways, pose) -> tuple[float, float]:
+    """Pushes the arms of a blend's pose out of the body where their ways lead into it, in place. Returns how far that
+    moves the hands.
+    """
+    allowed_m = np.empty(len(PAIRS))
+    let_be(start.depths_m, end.depths_m, weight, allowed_m)
+    let_lines_be(ways.modes, allowed_m)
+    return push_arms_out(body_of(world, row), capsules_of(world, row), allowed_m, *pose)
 
 
 def blend_ends(world, row: int, tick: float) -> tuple[BlendEnd, BlendEnd]:
@@ -110,18 +112,37 @@ def ways_of(blend, row: int) -> HandWays:
     return HandWays(blend.modes[row], blend.bends[row])
 
 
+def first_ways_of(blend, row: int) -> HandWays:
+    """How they go in part one of recovery."""
+    return HandWays(blend.first_modes[row], blend.first_bends[row])
+
+
 def simulation_into_sustained(world, row: int, tick: float) -> Pose:
     """Recovery, part one: from the running simulation into the sequence of the return blend (thesis 4.1.3)."""
-    body, shape = body_of(world, row), capsules_of(world, row)
-    simulated, returning = simulated_pose(world, row, tick), blended_pose(world, row, tick)
+    start, end = ends_of_part_one(world, row, tick, tick)
     part_one = whole_ticks(world.assets.settings.recovery.part_one_s)
     weight = ease((tick - world[Reaction].since[row] + 1) / part_one)
-    start = blend_end(body, shape, simulated.root_m, simulated.rotations)
-    end = blend_end(body, shape, returning.root_m, returning.rotations)
-    knees = knees_between(start, end, False, world[Blend].knees_m[row])
-    pose = between(world, row, tick, start, end, weight, swung_ways(), knees)[0]
-    clear_swung_arms(world, row, start, end, weight, swung_ways(), pose)
+    ways = first_ways_of(world[Blend], row)
+    pose = two_sequences(world, row, tick, start, end, weight, ways)
+    keep_out(world, row, start, end, weight, ways, pose)
     return pose
+
+
+def ends_of_part_one(world, row: int, tick: float, later: float) -> tuple[BlendEnd, BlendEnd]:
+    """The simulation at one tick, and the return blend at another."""
+    body, shape = body_of(world, row), capsules_of(world, row)
+    simulated, returning = simulated_pose(world, row, tick), blended_pose(world, row, later)
+    return (
+        blend_end(body, shape, simulated.root_m, simulated.rotations),
+        blend_end(body, shape, returning.root_m, returning.rotations),
+    )
+
+
+def two_sequences(world, row: int, tick: float, start, end, weight: float, ways: HandWays) -> Pose:
+    """A weight of the way from the one to the other."""
+    return between(
+        world, row, tick, start, end, weight, ways, knees_between(start, end, False, world[Blend].knees_m[row])
+    )[0]
 
 
 def between(world, row, tick, start, end, weight, ways, knees) -> tuple[Pose, tuple[float, float]]:
@@ -131,7 +152,7 @@ def between(world, row, tick, start, end, weight, ways, knees) -> tuple[Pose, tu
     root_m, rotations = np.empty(3), np.empty((JOINT_COUNT, 4))
     body, support = body_of(world, row), int(world[Blend].support[row])
     if support == NOBODY:
-        blend_lying(body, start, end, weight, root_m, rotations)
+        blend_lying(body, start, end, weight, ways, root_m, rotations)
         return Pose(root_m, rotations), (0.0, 0.0)
     goals = goals_of(world[Feet], row, tick)
     led_m = blend_into(body, start, end, weight, support, goals, ways, knees, root_m, rotations)
@@ -148,23 +169,31 @@ def note_knees(world, row: int, tick: int) -> None:
 def choose_hand_ways(world, row: int) -> None:
     """Decides, once for the present blend, whose feet are planned, how each hand goes (`behaviours.hand_ways`)."""
     b, body = world[Blend], body_of(world, row)
-    b.modes[row], b.bends[row] = straight_ways()
     b.knees_m[row] = joints_of(body, Pose(b.from_root_m[row], b.from_rotations[row]))[0][list(KNEES)]
-    if b.support[row] == NOBODY:
-        return  # both ends lie
+    # of bodies that lie, arms are swung: nobody's hands go straight lines under them
+    ways = swung_ways() if b.support[row] == NOBODY else straight_ways()
     start, end = blend_ends(world, row, b.since[row])
+    knees = knees_between(start, end, False, b.knees_m[row])
     progress = np.linspace(0.0, 1.0, MOMENTS)
     between_them = [
-        between(
-            world, row, b.since[row] + u * b.ticks[row], start, end, ease(u), straight_ways(),
-            knees_between(start, end, False, b.knees_m[row]),
-        )[0]
-        for u in progress
-    ]  # fmt: skip
-    ways = straight_ways()
+        between(world, row, b.since[row] + u * b.ticks[row], start, end, ease(u), ways, knees)[0] for u in progress
+    ]
     shape = capsules_of(world, row)
     choose_ways(body, shape, start, end, moments_of(body, shape, start, end, progress, between_them), ways)
     b.modes[row], b.bends[row] = ways
+
+
+def choose_first_ways(world, row: int, tick: int) -> None:
+    """Likewise for part one of recovery, which begins at a tick, as if the simulation stood still and the return blend
+    were where it will be at its end: evenly, unless that leads into the body.
+    """
+    b, body, shape = world[Blend], body_of(world, row), capsules_of(world, row)
+    ticks = whole_ticks(world.assets.settings.recovery.part_one_s)
+    start, end = ends_of_part_one(world, row, tick - 1, tick - 1 + ticks)
+    progress, ways = np.linspace(0.0, 1.0, MOMENTS), swung_ways()
+    poses = [two_sequences(world, row, tick - 1 + u * ticks, start, end, ease(u), ways) for u in progress]
+    choose_ways(body, shape, start, end, moments_of(body, shape, start, end, progress, poses), ways)
+    b.first_modes[row], b.first_bends[row] = ways
 
 
 def foot_goals(world, row: int, tick: float, source: Pose) -> FootGoals:

@@ -36,6 +36,8 @@ WORTH = 0.02  # of the sum of squares: a step that gains less is the last
 STARTS = np.array([
     (0.0, 0.0, 0.0, 0.0), (0.6, 0.0, 0.0, 0.0), (0.6, -0.6, 0.0, 0.0), (0.0, -0.8, 0.0, 0.0), (0.0, 0.6, 0.0, 0.0),
     (0.0, 0.0, 0.0, -0.8), (0.0, 0.0, 0.0, 0.8), (0.6, 0.0, 0.0, 0.8),
+    # folded and raised first: so a hand gets up to a face that is bowed over the chest
+    (0.0, -1.2, 0.0, -1.2), (0.6, -1.2, 0.6, -1.2),
 ])  # fmt: skip
 
 

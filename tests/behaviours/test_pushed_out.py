@@ -5,10 +5,10 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from behaviours.arm_ways import BEYOND_RAD
+from behaviours.arm_ways import BEYOND_RAD, INTERPOLATED, SWUNG
 from behaviours.hand_ways import APART_M
-from behaviours.overlap import PAIRS, overlaps_m
-from behaviours.pushed_out import deeper_into, keep_arms_out, push_arms_out
+from behaviours.overlap import PAIRS, overlaps_m, pair_name
+from behaviours.pushed_out import LINE_APART_M, deeper_into, keep_arms_out, let_lines_be, push_arms_out
 from engine.body.kinematics import joints_of
 from engine.body.limits import excess_rad
 from engine.body.skeleton import ELBOWS, SHOULDERS, WRISTS, Pose
@@ -17,7 +17,6 @@ from tests.behaviours.blends import SHAPE, at_ease, on_guard, with_arm
 from tests.behaviours.people import BODY
 
 HALF_LIFE_S = 0.035
-BOTH, LEFT_ONLY = np.array([True, True]), np.array([True, False])
 APART = np.full(len(PAIRS), -APART_M)
 
 
@@ -30,9 +29,9 @@ def depths_m(pose: Pose) -> np.ndarray:
     return overlaps_m(BODY, Pose(pose.root_m[None], pose.rotations[None]))[0]
 
 
-def pushed(pose: Pose, allowed_m=APART, free=BOTH) -> Pose:
+def pushed(pose: Pose, allowed_m=APART) -> Pose:
     rotations = pose.rotations.copy()
-    push_arms_out(BODY, SHAPE, allowed_m, free, pose.root_m, rotations)
+    push_arms_out(BODY, SHAPE, allowed_m, pose.root_m, rotations)
     return Pose(pose.root_m, rotations)
 
 
@@ -66,9 +65,11 @@ def test_what_is_clear_is_left_exactly_as_it_is():
         np.testing.assert_array_equal(pushed(pose, depths_m(pose)).rotations, pose.rotations)
 
 
-def test_an_arm_that_is_not_free_stays_where_it_is():
-    pose = mirror_pose(across(20.0))  # it is the right one that is too deep
-    np.testing.assert_array_equal(pushed(pose, free=LEFT_ONLY).rotations, pose.rotations)
+def test_a_hand_on_its_line_is_let_come_nearer():
+    allowed_m = APART.copy()
+    let_lines_be(np.array([INTERPOLATED, SWUNG]), allowed_m)
+    for n, allowed in enumerate(allowed_m):
+        assert allowed == (-LINE_APART_M if "left" in pair_name(n) else -APART_M)
 
 
 def test_a_mirrored_pose_is_pushed_to_the_mirror_image():
