@@ -30,7 +30,7 @@ SKIN_M = 0.004  # skins that come nearer than this already begin to push
 
 # rows of the residuals: those of one arm, those of the other, those of both against each other
 SHIFT_ROW, SWING_ROW, TURN_ROW, WRIST_ROW, SHOULDER_ROW, TWIST_ROW, BENT_ROW, DEPTH_ROW = 0, 3, 4, 7, 10, 13, 14, 17
-OBSTACLE_COUNT = 5
+OBSTACLE_COUNT = 6
 ARM_ROWS = DEPTH_ROW + 2 * OBSTACLE_COUNT
 ROWS = 2 * ARM_ROWS + 4
 

@@ -72,6 +72,9 @@ def _mix_shoulders(side, one, other, share):
     crossed = from_components(outward * CROSSED_RAD[0], CROSSED_RAD[1], outward * CROSSED_RAD[2])
     a = quaternion.to_rotation_vector(quaternion.multiply(quaternion.conjugate(crossed), one))
     b = quaternion.to_rotation_vector(quaternion.multiply(quaternion.conjugate(crossed), other))
+    whole = vector.along(b, vector.unit(b, (0.0, 0.0, 1.0)), -2.0 * math.pi)  # the same turn, the other way round
+    if vector.distance(a, whole) < vector.distance(a, b):
+        b = whole
     return quaternion.multiply(crossed, quaternion.from_rotation_vector(vector.mix(a, b, share)))
 
 

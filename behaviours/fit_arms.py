@@ -33,7 +33,9 @@ from engine.maths.copying import copy_into
 from engine.maths.inner_kernel import inner_kernel
 from engine.maths.kernel import njit
 
-# an elbow may hang on the wrong side of something: from trouble like this on others are tried, left and right
+# an elbow may be on either side of a limit of its shoulder's: both are tried, and a first that is as good is kept
+SWINGS_RAD, WORTH = (0.0, 0.8, -0.8), 0.98
+# it may hang on the wrong side of something: from trouble like this on others are tried, left and right
 ENOUGH_TROUBLE = 9.0
 OTHER_SWINGS_RAD = (
     (0.8, 0.0), (0.0, 0.8), (-0.8, 0.0), (0.0, -0.8), (0.8, 0.8), (-0.8, -0.8), (1.6, 0.0), (0.0, 1.6), (-1.6, 0.0),
@@ -66,30 +68,34 @@ def fit_arms(task, controls, posed):
         for end in range(2):
             at = near if end == 0 else far
             wish(task, controls, rules if at != 0.5 else beside, math.ceil(at), posed, wishes)
-            _fit(task, wishes, at, posed)
+            _fit(task, wishes, at, len(SWINGS_RAD), posed)
             for side in range(2):
                 for joint in range(3):  # shoulder, elbow, wrist
                     q = quaternion.at(posed.rotations, SHOULDERS[side] + joint)
                     quaternion.put(turned[end], 3 * side + joint, q)
         mix_arms(bones.offset_m, turned, 2.0 * (share - near), posed)
         wish_as_posed(task.build, posed, wishes)
-    return _fit(task, wishes, share, posed)
+        return _fit(task, wishes, share, 1, posed)
+    return _fit(task, wishes, share, len(SWINGS_RAD), posed)
 
 
 @inner_kernel
-def _fit(task, wishes, share, posed):
-    """Both arms as near to what is wished (2, 10) as can be, in place; share: how much of that is a wrap."""
+def _fit(task, wishes, share, swings, posed):
+    """Both arms as near to what is wished (2, 10) as can be, in place; share: how much of that is a wrap; swings: how
+    many of SWINGS_RAD are tried.
+    """
     bones, build, start = task.bones, task.build, task.start
     along = (1.0 / ALONG_LINE_M - 1.0 / OFF_LINE_M) * (1.0 - share)
     line = quaternion.unrotate(quaternion.at(posed.orientations, BACK), task.threat.tangent)
     point, begin = np.zeros(VARIABLES), np.zeros(VARIABLES)
-    trouble = _least_trouble(task, wishes, line, along, point, posed)
+    residuals = np.empty(ROWS)
+    trouble = _better_of_both(task, wishes, line, along, swings, point, posed, residuals)
     for other in range(len(OTHER_SWINGS_RAD)):
         if trouble < ENOUGH_TROUBLE:
             break
         begin[:] = 0.0
         begin[SWING], begin[ARM_VARIABLES + SWING] = OTHER_SWINGS_RAD[other]
-        wrong = _least_trouble(task, wishes, line, along, begin, posed)
+        wrong = _least_trouble(task, wishes, line, along, begin, posed, residuals)
         if wrong < trouble:
             trouble = wrong
             copy_into(point, begin)
@@ -104,10 +110,39 @@ def _fit(task, wishes, share, posed):
 
 
 @inner_kernel
-def _least_trouble(task, wishes, line, along, point, posed):
-    """Levenberg and Marquardt's descent from `point` (14,), in place; see least_squares."""
+def _better_of_both(task, wishes, line, along, swings, point, posed, residuals):
+    """The best of descents from a few swings of both elbows, for either arm by itself, and on from there together:
+    writes `point` (14,), returns its trouble.
+    """
+    tried, least = np.zeros(VARIABLES), (np.inf, np.inf)
+    for n in range(swings):
+        tried[:] = 0.0
+        tried[SWING] = tried[ARM_VARIABLES + SWING] = SWINGS_RAD[n]
+        _least_trouble(task, wishes, line, along, tried, posed, residuals)
+        left, right = _sum_of_squares(residuals, 0), _sum_of_squares(residuals, ARM_ROWS)
+        for side in range(2):
+            wrong = left if side == 0 else right
+            if wrong < WORTH * least[side]:
+                least = (wrong, least[1]) if side == 0 else (least[0], wrong)
+                for k in range(side * ARM_VARIABLES, (side + 1) * ARM_VARIABLES):
+                    point[k] = tried[k]
+    return _least_trouble(task, wishes, line, along, point, posed, residuals)
+
+
+@inner_kernel
+def _sum_of_squares(residuals, first):
+    """Of the rows of one arm, from its first on."""
+    total = 0.0
+    for row in range(first, first + ARM_ROWS):
+        total += residuals[row] * residuals[row]
+    return total
+
+
+@inner_kernel
+def _least_trouble(task, wishes, line, along, point, posed, residuals):
+    """Levenberg and Marquardt's descent from `point` (14,), in place; see least_squares. Writes what is left."""
     low, high = np.full(VARIABLES, -np.inf), np.full(VARIABLES, np.inf)
-    residuals, trial_residuals, changed = np.empty(ROWS), np.empty(ROWS), np.empty(ROWS)
+    trial_residuals, changed = np.empty(ROWS), np.empty(ROWS)
     jacobian, matrix = np.zeros((ROWS, VARIABLES)), np.empty((VARIABLES, VARIABLES))
     slope, step, trial = np.empty(VARIABLES), np.empty(VARIABLES), np.empty(VARIABLES)
     segments = np.empty((2, 12))

@@ -12,7 +12,7 @@ from engine.maths.inner_kernel import inner_kernel
 from engine.maths.kernel import njit
 from engine.maths.shapes import nearest_between
 
-TRUNK = ("pelvis", "belly", "chest", "upper_chest", "head")
+TRUNK = ("pelvis", "belly", "chest", "upper_chest", "neck", "head")
 ARMS = tuple((f"{side}_forearm", f"{side}_hand") for side in ("left", "right"))
 # every hand and forearm against trunk and head, then against both of the other side
 PAIRS = np.array(

@@ -34,8 +34,8 @@ TRIES, FIRST_DAMPING = 14, 0.01
 MOST_STEP_RAD, NUDGE_RAD = 0.2, 1e-6
 DEPTH_M = 0.003  # what is left of a push that turns an arm by TURN_RAD: so far in the body, or beyond what is allowed
 TURN_RAD = 0.25
-LINE_APART_M = 0.002
 LEVER_M = 0.2  # of a usual push: from the shoulder to where a forearm touches
+LINE_APART_M = 0.002  # skins of an arm that has a line to keep to keep no farther off
 
 
 @njit(cache=True)

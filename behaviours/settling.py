@@ -37,9 +37,8 @@ from engine.maths.inner_kernel import inner_kernel
 from engine.maths.kernel import njit
 
 BELONGINGS = (Ragdoll, Blow, Residual, Blend, Feet, Sustained, Playback)  # what a pose is made from
-OLD_SHARE = (
-    0.5  # of the residual's half-life: how long what the old motion had beyond a limit, or inside the body, is let be
-)
+# of the residual's half-life: how long what the old motion had beyond a limit, or inside the body, is let be
+OLD_SHARE = 0.5
 KNEE_PLAY_RAD = 0.05  # what a knee gives beyond its limits, so that one that is straight anyway does not catch
 
 

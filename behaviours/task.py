@@ -9,6 +9,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from behaviours.overlap import TRUNK
 from behaviours.perceived import PerceivedThreat, head_centre_m
 from behaviours.settings import Block, LeanTurn, Pelvis, Recoil, Wrap
 from engine.body.capsules import CAPSULES, body_capsules
@@ -16,7 +17,7 @@ from engine.body.skeleton import ANKLES, ELBOWS, JOINT_COUNT, KNEES, WRISTS, Bod
 from engine.maths.kernel import njit
 
 Triple = tuple[float, float, float]
-OBSTACLES = ("pelvis", "belly", "chest", "upper_chest", "head")
+OBSTACLES = TRUNK
 
 
 class Bones(NamedTuple):
@@ -44,7 +45,7 @@ class Build(NamedTuple):
     arm_radius_m: tuple[float, float]  # of the forearms
     hand_start_m: tuple[Triple, Triple]  # both ends of the hands' capsules, in the wrists' frames
     hand_end_m: tuple[Triple, Triple]
-    obstacle_radius_m: tuple[float, float, float, float, float]  # of OBSTACLES
+    obstacle_radius_m: tuple[float, ...]  # of OBSTACLES
 
 
 class Start(NamedTuple):

@@ -137,6 +137,7 @@ def deepest_m(pose: Pose) -> float:
 def test_arms_are_held_against_head_trunk_and_each_other():
     names = {(CAPSULES[a], CAPSULES[b]) for a, b in PAIRS}
     assert ("left_hand", "head") in names
+    assert ("right_hand", "neck") in names
     assert ("right_forearm", "upper_chest") in names
     assert ("left_forearm", "right_hand") in names
     assert not any("thigh" in b for _, b in names)
