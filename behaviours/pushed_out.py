@@ -11,7 +11,6 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from numba import njit
 
 from behaviours.arm_ways import BEYOND_RAD, SWUNG, overstep, place_arm, within_limits
 from behaviours.hand_ways import APART_M
@@ -23,6 +22,7 @@ from engine.body.skeleton import CLAVICLES, ELBOWS, JOINT_COUNT, SHOULDERS, WRIS
 from engine.maths import quaternion, vector
 from engine.maths.copying import copy_into
 from engine.maths.inner_kernel import inner_kernel
+from engine.maths.kernel import njit
 from engine.maths.shapes import nearest_between
 from engine.maths.springs import decaying
 
