@@ -26,7 +26,7 @@ from engine.maths.kernel import njit
 INTERPOLATED, SLERPED, SWUNG = range(3)
 # radians: a shoulder's swing X, swing Y and twist, and an elbow's flexion; X and twist away from the body on both sides
 KNOTS, KNOT_PARTS = 2, 4
-BEYOND_RAD = math.radians(0.35)  # what a limit gives at most
+BEYOND_RAD = math.radians(0.2)  # what a limit gives at most: twice that, where a blend ends in another one
 MOST_SWING_RAD = math.radians(175.0)  # half a turn of swing has no direction
 
 

@@ -94,5 +94,5 @@ def add_remaining(root, rotations, offset_root, offset_joints, elapsed_s, half_l
 
 def nothing_left(residual, row: int) -> None:
     """Forgets the residual of one row: the source is shown as it is."""
-    for name in ("root", "joints", "ankles", "ankle_turns", "stretch", "deeper_m"):
+    for name in ("root", "joints", "beyond", "ankles", "ankle_turns", "stretch", "deeper_m"):
         getattr(residual, name)[row] = np.zeros_like(getattr(residual, name)[row])

@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from behaviours.arm_ways import follow_way
+from behaviours.blending import mix_joint
 from engine.body.footing import lowest_m
 from engine.body.kinematics import joints_into
 from engine.body.skeleton import JOINT_COUNT
@@ -14,14 +15,13 @@ from engine.maths.kernel import njit
 
 @njit(cache=True)
 def blend_lying(body, start, end, weight, ways, root_m, rotations):
-    """Every rotation slerped but the arms', which go their ways, the root on a straight line, on the floor: what is
+    """Every rotation slerped, a hinge's as it turns, but the arms', which go their ways, the root on a straight line, on the floor: what is
     lowest goes evenly from the one height to the other.
 
     `start`, `end`: BlendEnds; ways: HandWays. Writes root_m (3,) and rotations (J, 4).
     """
     for j in range(JOINT_COUNT):
-        q = quaternion.slerp(start.rotations[j], end.rotations[j], weight)
-        rotations[j, 0], rotations[j, 1], rotations[j, 2], rotations[j, 3] = q
+        quaternion.put(rotations, j, mix_joint(j, start.rotations[j], end.rotations[j], weight))
     for k in range(3):
         root_m[k] = start.root_m[k] + weight * (end.root_m[k] - start.root_m[k])
     positions, orientations = np.empty((JOINT_COUNT, 3)), np.empty((JOINT_COUNT, 4))

@@ -14,10 +14,12 @@ import numpy as np
 from behaviours import inertialise
 from behaviours.components import Posture, Residual
 from behaviours.held_feet import FootGoals, legs_to
+from behaviours.leg_limits import EARLY_RAD
 from behaviours.playing import capsules_of
 from behaviours.pushed_out import deeper_into
 from behaviours.timing import TICK_S
 from engine.body.kinematics import joints_of
+from engine.body.limits import beyond_limits
 from engine.body.skeleton import ANKLES, TOES, Body, Pose
 
 MOMENT = 1.0 / 512.0  # of a tick: short enough for a velocity, long enough for its digits
@@ -57,6 +59,8 @@ def begin_seam(world, row: int, tick: int, body: Body, shown_before: Pose, sourc
     r.since[row] = tick - 1
     inertialise.measure_seam(*source.pose, *source.later, *now, *ahead, moment_s, r.root[row], r.joints[row])
     deeper_into(body, capsules_of(world, row), source.pose.rotations, now.rotations, r.deeper_m[row])
+    low, high = body.limit_low_rad + EARLY_RAD, body.limit_high_rad - EARLY_RAD
+    r.beyond[row] = beyond_limits(low, high, now.rotations)
     _keep_ankles(r, row, body, now, ahead, source, moment_s)
 
 

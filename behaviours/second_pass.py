@@ -12,6 +12,7 @@ import math
 
 from behaviours.arm_ways import BEYOND_RAD, follow_way, within_limits
 from behaviours.held_feet import hold_feet, leg_lengths
+from behaviours.leg_limits import bounds_between, keep_leg
 from behaviours.neck_line import hold_neck
 from engine.body.kinematics import centre_of_mass, joints_into
 from engine.body.limb_ik import place_children, turn_end_to
@@ -19,7 +20,6 @@ from engine.body.skeleton import ANKLES, BACK, HEAD, HIPS, KNEES, NECK, PELVIS, 
 from engine.maths import quaternion, vector
 from engine.maths.inner_kernel import inner_kernel
 
-LEG_BEYOND_RAD = math.radians(0.2)  # what a leg's limits give: twice that, where a blend ends in another one
 TRIES, LAST_TRIES = 5, 2
 # how far the pelvis moves for a COM that is off by one: feet, neck and hands stay behind, so that it brings the COM
 # from two fifths of that to nearly all of it; of either, each try leaves less than a half
@@ -27,6 +27,8 @@ GAIN = 1.5
 LAST_GAIN = 0.7
 # how far the COM is moved along its line for a leg that is too short by one, and how steep a leg counts as plumb
 ALONG_GAIN, PLUMB = 0.4, 0.3
+# how far above its line the COM may go for an ankle that a low pelvis bends up too far, and by how much for a radian
+MOST_LIFT_M, LIFT_GAIN_M = 0.0035, 0.1
 LEGS_SHARE = 0.5  # of the pelvis's way that the legs go, feet held
 
 
@@ -44,8 +46,10 @@ def balance(body, start, end, weight, goals, ways, knees, root_m, rotations, pos
     at once.
     """
     waist, back = quaternion.at(rotations, WAIST), quaternion.at(rotations, BACK)
-    led, sunk_m = hold_ends(body, start, end, weight, goals, ways, knees, root_m, rotations, positions, orientations)
-    far_m, ahead_m = max(vector.distance(start.com_m, end.com_m), 1e-9), 0.0
+    led, sunk_m, bent_rad = hold_ends(
+        body, start, end, weight, goals, ways, knees, root_m, rotations, positions, orientations
+    )
+    far_m, ahead_m, lift_m = max(vector.distance(start.com_m, end.com_m), 1e-9), 0.0, 0.0
     line = vector.scale(vector.subtract(end.com_m, start.com_m), 1.0 / far_m)
     legs, mass, legs_mass = legs_moment(body, positions, orientations)
     first = legs_moment(body, start.positions, start.orientations)[0]
@@ -58,7 +62,9 @@ def balance(body, start, end, weight, goals, ways, knees, root_m, rotations, pos
         for side in range(2):
             ahead_m += ALONG_GAIN * sunk_m[side] * towards_foot(line, goals, side, positions)
         ahead_m = max(min(ahead_m, max(1.0 - weight, 0.0) * far_m), -weight * far_m)
+        lift_m += LIFT_GAIN_M * bent_rad
         wanted_m = vector.mix(start.com_m, end.com_m, weight + ahead_m / far_m)
+        wanted_m = (wanted_m[0], wanted_m[1], wanted_m[2] + MOST_LIFT_M * math.tanh(lift_m / MOST_LIFT_M))
         off_m = vector.subtract(wanted_m, com_m)
         if n < TRIES:
             now, share = legs_moment(body, positions, orientations)[0], LEGS_SHARE * legs_mass
@@ -70,7 +76,7 @@ def balance(body, start, end, weight, goals, ways, knees, root_m, rotations, pos
                 root_m[k] += LAST_GAIN * inside * off_m[k]
         quaternion.put(rotations, WAIST, waist)
         quaternion.put(rotations, BACK, back)
-        led, sunk_m = hold_ends(
+        led, sunk_m, bent_rad = hold_ends(
             body, start, end, weight, goals, ways, knees, root_m, rotations, positions, orientations
         )
     return led
@@ -102,24 +108,42 @@ def legs_moment(body, positions, orientations):
 def hold_ends(body, start, end, weight, goals, ways, knees, root_m, rotations, positions, orientations):
     """Feet, neck, head and hands where they belong at this weight, whatever the pelvis. In place.
 
-    Returns how far limits keep either hand off its way, and by how much the pelvis would sink for either foot, metres.
+    Returns how far limits keep either hand off its way, by how much the pelvis would sink for either foot, metres, and
+    how far an ankle is bent up beyond its limit, radians.
     """
     joints_into(body.offset_m, root_m, rotations, positions, orientations)
     first, last = leg_lengths(start.positions), leg_lengths(end.positions)
     lengths = (first[0] + weight * (last[0] - first[0]), first[1] + weight * (last[1] - first[1]))
     sunk_m = hold_feet(body, goals, lengths, knees, weight, root_m, rotations, positions, orientations)
+    bent_rad = 0.0
     for side in range(2):
-        if not goals.bound[side]:
+        if goals.bound[side]:
+            bounds = bounds_between(body, start.rotations, end.rotations, weight, side)
+            left_rad = keep_leg(body, bounds, goals.bears[side], side, rotations, positions, orientations)
+            bent_rad = max(bent_rad, goals.bears[side] * left_rad)
+        else:
             slerp_foot(body, start, end, weight, side, rotations, positions, orientations)
         if goals.bears[side] < 1.0:
             ease_hip(body, start, end, weight, side, goals.bears[side], rotations, positions, orientations)
             ease_ankle(body, start, end, weight, side, goals.bears[side], rotations, positions, orientations)
     neck_m = vector.mix(vector.at(start.positions, NECK), vector.at(end.positions, NECK), weight)
     hold_neck(body, neck_m, root_m, rotations, positions, orientations)
+    ease_waist(body, start, end, weight, root_m, rotations, positions, orientations)
     slerp_head(body, start, end, weight, rotations, orientations)
     left_m = follow_way(body, start, end, weight, 0, ways, rotations, positions, orientations)
     right_m = follow_way(body, start, end, weight, 1, ways, rotations, positions, orientations)
-    return (left_m, right_m), sunk_m
+    return (left_m, right_m), sunk_m, bent_rad
+
+
+@inner_kernel
+def ease_waist(body, start, end, weight, root_m, rotations, positions, orientations):
+    """Draws a waist that the neck's line bends too far back to where it goes; the neck stays behind. In place."""
+    q, changed = within_limits(
+        body, WAIST, start.rotations[WAIST], end.rotations[WAIST], weight, rotations[WAIST], BEYOND_RAD
+    )
+    if changed:
+        quaternion.put(rotations, WAIST, q)
+        joints_into(body.offset_m, root_m, rotations, positions, orientations)
 
 
 @inner_kernel
@@ -136,9 +160,7 @@ def ease_hip(body, start, end, weight, side, bears, rotations, positions, orient
     The foot stays behind its plan. In place.
     """
     hip, knee, ankle = HIPS[side], KNEES[side], ANKLES[side]
-    q, changed = within_limits(
-        body, hip, start.rotations[hip], end.rotations[hip], weight, rotations[hip], LEG_BEYOND_RAD
-    )
+    q, changed = within_limits(body, hip, start.rotations[hip], end.rotations[hip], weight, rotations[hip], BEYOND_RAD)
     if changed:
         turned = quaternion.at(orientations, ankle)
         quaternion.put(rotations, hip, quaternion.slerp(q, quaternion.at(rotations, hip), bears))
@@ -153,7 +175,7 @@ def ease_ankle(body, start, end, weight, side, bears, rotations, positions, orie
     """Turns a foot in the air back to where its ankle goes; the less, the more it bears. In place."""
     ankle = ANKLES[side]
     q, changed = within_limits(
-        body, ankle, start.rotations[ankle], end.rotations[ankle], weight, rotations[ankle], LEG_BEYOND_RAD
+        body, ankle, start.rotations[ankle], end.rotations[ankle], weight, rotations[ankle], BEYOND_RAD
     )
     if changed:
         eased = quaternion.slerp(q, quaternion.at(rotations, ankle), bears)

@@ -22,24 +22,24 @@ from behaviours.components import (
     Residual,
     Sustained,
 )
-from behaviours.held_feet import LEG_SOFT_M, drop_beyond_own, legs_to
+from behaviours.held_feet import legs_to
 from behaviours.inertialise import add_remaining, nothing_left, remaining, remaining2, turned_by
+from behaviours.leg_limits import EARLY_RAD
 from behaviours.playing import body_of, capsules_of, clip_time_s, planted_in_clip
 from behaviours.pushed_out import keep_arms_out
+from behaviours.settled_legs import Footing, stand
 from behaviours.sources import foot_goals, note_knees, source_pose
-from engine.body.kinematics import joints_into
-from engine.body.limb_ik import apply_leg, leg_swivel
-from engine.body.limits import clamp_keeping, components, from_components
-from engine.body.skeleton import ANKLES, HIPS, JOINT_COUNT, KNEES, PELVIS
+from engine.body.kinematics import joints_of
+from engine.body.limits import components, from_components
+from engine.body.skeleton import ANKLES, HIPS, KNEES, PELVIS
 from engine.core.schedule import Stage, system
-from engine.maths import quaternion, vector
+from engine.maths import quaternion, springs, vector
 from engine.maths.inner_kernel import inner_kernel
 from engine.maths.kernel import njit
 
 BELONGINGS = (Ragdoll, Blow, Residual, Blend, Feet, Sustained, Playback)  # what a pose is made from
 # of the residual's half-life: how long what the old motion had beyond a limit, or inside the body, is let be
 OLD_SHARE = 0.5
-KNEE_PLAY_RAD = 0.05  # what a knee gives beyond its limits, so that one that is straight anyway does not catch
 
 
 @njit(cache=True)
@@ -55,82 +55,48 @@ def goals_with_residual(ankle_m, turned, ankles, ankle_turns, elapsed_s, half_li
 
 
 @njit(cache=True)
-def keep_knees(body, source, rotations):
-    """Keeps a residual (in a pose (J, 4)) from bending a knee backwards, farther than the source itself does. In
-    place.
-    """
-    for j in KNEES:
-        low, high = body.limit_low_rad[j] - KNEE_PLAY_RAD, body.limit_high_rad[j] + KNEE_PLAY_RAD
-        q = clamp_keeping(low, high, source[j], rotations[j])
-        for k in range(4):
-            rotations[j, k] = q[k]
+def keep_joints(body, source, beyond, rotations):
+    """Keeps a residual (in a pose (J, 4)) from taking head, trunk, arms and knees beyond their limits. In place.
 
-
-@njit(cache=True)
-def keep_joints(body, source, offsets, elapsed_s, half_life_s, rotations):
-    """Keeps a residual (in a pose (J, 4)) from taking head, trunk and arms beyond their limits. In place.
-
-    Beyond them is let be what the source (J, 4) itself has, and what the old motion had at the seam, as it dies away:
-    `offsets` (J, 3) are the residual's there.
+    Beyond them is let be what the source (J, 4) itself is, and what is left of how far the old motion was: beyond (J,
+    3), counted from limits drawn in by EARLY_RAD, radians, negative below.
     """
     for j in range(HIPS[0]):
         if j != PELVIS:
-            keep_joint(body, j, source, offsets, elapsed_s, half_life_s, 1.0, rotations)
+            keep_joint(body, j, source, beyond, 1.0, rotations)
+    for j in KNEES:
+        keep_joint(body, j, source, beyond, 1.0, rotations)
 
 
 @njit(cache=True)
-def keep_swinging_legs(body, source, offsets, bears, elapsed_s, half_life_s, rotations):
+def keep_swinging_legs(body, source, beyond, bears, rotations):
     """Likewise hips and ankles, in so far as their foot bears nothing: one in the air may be where the leg goes. In
     place.
     """
     for side in range(2):
         if bears[side] < 1.0:
             for j in (HIPS[side], ANKLES[side]):
-                keep_joint(body, j, source, offsets, elapsed_s, half_life_s, 1.0 - bears[side], rotations)
+                keep_joint(body, j, source, beyond, 1.0 - bears[side], rotations)
 
 
 @inner_kernel
-def keep_joint(body, j, source, offsets, elapsed_s, half_life_s, share, rotations):
+def keep_joint(body, j, source, beyond, share, rotations):
     """One joint of those, drawn in by a share of what is too much. In place."""
-    old = turned_by(source[j], remaining(vector.at(offsets, j), (0.0, 0.0, 0.0), elapsed_s, OLD_SHARE * half_life_s))
-    a, b, c = components(source[j]), components(old), components(rotations[j])
-    low, high = vector.at(body.limit_low_rad, j), vector.at(body.limit_high_rad, j)
-    x = c[0] + share * (drawn_in(low[0], high[0], a[0], b[0], c[0]) - c[0])
-    y = c[1] + share * (drawn_in(low[1], high[1], a[1], b[1], c[1]) - c[1])
-    z = c[2] + share * (drawn_in(low[2], high[2], a[2], b[2], c[2]) - c[2])
+    a, c = components(source[j]), components(rotations[j])
+    low, high, old = vector.at(body.limit_low_rad, j), vector.at(body.limit_high_rad, j), vector.at(beyond, j)
+    x = c[0] + share * (drawn_in(low[0], high[0], a[0], old[0], c[0]) - c[0])
+    y = c[1] + share * (drawn_in(low[1], high[1], a[1], old[1], c[1]) - c[1])
+    z = c[2] + share * (drawn_in(low[2], high[2], a[2], old[2], c[2]) - c[2])
     if x != c[0] or y != c[1] or z != c[2]:
         quaternion.put(rotations, j, from_components(x, y, z))
 
 
 @inner_kernel
-def drawn_in(low, high, first, last, value):
-    """A component, gently, within its limits or at least no farther out than two others; radians."""
-    beyond = max(value - max(high, first, last), 0.0) + min(value - min(low, first, last), 0.0)
-    return value - beyond + yielding(beyond)
-
-
-@njit(cache=True)
-def stand_on(body, root_m, rotations, ankle_m, turned, bears, own_lengths):
-    """Leg IK of both legs onto ankle goals (2, 3), (2, 4), in place. The knees stay where the least swing leaves them.
-
-    The pelvis sinks by what the residual has put out of reach, beyond `own_lengths` (2,): the legs' in the source,
-    and what is left of the last seam's. So a residual that is nothing changes nothing, and one that has just begun
-    neither.
-    """
-    positions = np.empty((JOINT_COUNT, 3))
-    orientations = np.empty((JOINT_COUNT, 4))
-    joints_into(body.offset_m, root_m, rotations, positions, orientations)
-    drop = 0.0
-    for side in range(2):
-        need = drop_beyond_own(body, positions[HIPS[side]], ankle_m[side], side, own_lengths[side])
-        drop = max(drop, bears[side] * need)
-    root_m[2] -= drop
-    for j in range(JOINT_COUNT):
-        positions[j, 2] -= drop
-    for side in range(2):
-        swivel = leg_swivel(positions, orientations, side)
-        soft_m = LEG_SOFT_M * (1.0 - bears[side])
-        apply_leg(body, rotations, positions, orientations, side, ankle_m[side], turned[side], swivel, soft_m)
+def drawn_in(low, high, own, old, value):
+    """A component, gently, within its limits, or at least no farther out than its own or than it was; radians."""
+    most, least = high + max(old - EARLY_RAD, 0.0), low + min(old + EARLY_RAD, 0.0)
+    over = max(value - max(most, own), 0.0) + min(value - min(least, own), 0.0)
+    return value - over + yielding(over)
 
 
 @system(
@@ -186,17 +152,18 @@ def settled_pose(world, row: int, tick: float) -> tuple[np.ndarray, np.ndarray]:
     left = remaining2(r.stretch[row], elapsed_s, half_life_s)
     own = legs_to(body, source.root_m, source.rotations, goals.ankle_m)
     own_lengths = (own[0] + left[0], own[1] + left[1])
-    unaltered = source.rotations.copy()
+    unaltered, unaltered_m = source.rotations.copy(), source.root_m.copy()
     add_remaining(source.root_m, source.rotations, r.root[row], r.joints[row], elapsed_s, half_life_s)
-    keep_joints(body, unaltered, r.joints[row, 0], elapsed_s, half_life_s, source.rotations)
     old_s = OLD_SHARE * half_life_s
+    beyond = r.beyond[row] * springs.decaying(1.0, 0.0, old_s, elapsed_s)[0]
+    keep_joints(body, unaltered, beyond, source.rotations)
     keep_arms_out(
         body, capsules_of(world, row), unaltered, r.deeper_m[row], elapsed_s, old_s, source.root_m, source.rotations
     )
-    keep_knees(body, unaltered, source.rotations)
     goals_with_residual(goals.ankle_m, goals.turned, r.ankles[row], r.ankle_turns[row], elapsed_s, half_life_s)
-    stand_on(body, source.root_m, source.rotations, goals.ankle_m, goals.turned, goals.bears, own_lengths)
-    keep_swinging_legs(body, unaltered, r.joints[row, 0], goals.bears, elapsed_s, half_life_s, source.rotations)
+    footing = Footing(unaltered_m, unaltered, beyond, goals.ankle_m, goals.turned, goals.bears, own_lengths)
+    stand(body, footing, source.root_m, source.rotations)
+    keep_swinging_legs(body, unaltered, beyond, goals.bears, source.rotations)
     return source.root_m, source.rotations
 
 
@@ -207,8 +174,17 @@ def standing_feet(world, row: int, tick: int) -> list[bool]:
         return list(planted_in_clip(world, row, clip_time_s(world, row, tick)))
     if phase in (Phase.RESPOND, Phase.DOWN):
         return [False, False]
-    half_life_s = world.assets.settings.blend.seam_half_life_s
+    half_life_s, flat = world.assets.settings.blend.seam_half_life_s, flat_feet(world, row, tick)
     return [
-        foot_plan.stands(world[Feet], row, side, tick) and seams.foot_is_still(world, row, side, tick, half_life_s)
+        foot_plan.stands(world[Feet], row, side, tick)
+        and seams.foot_is_still(world, row, side, tick, half_life_s)
+        and bool(flat[side])
         for side in range(2)
     ]
+
+
+def flat_feet(world, row: int, tick: int) -> np.ndarray:
+    """(2,) bool: which feet are shown where they are planned, and not on their toes."""
+    positions, _ = joints_of(body_of(world, row), seams.shown(world, row)[0])
+    off_m = positions[list(ANKLES)] - foot_plan.goals_of(world[Feet], row, tick).ankle_m
+    return np.sum(off_m * off_m, axis=1) < seams.STILL_FOOT_M**2

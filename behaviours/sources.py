@@ -25,6 +25,7 @@ from engine.body.skeleton import ANKLES, HIPS, JOINT_COUNT, KNEES, TOES, WAIST, 
 from engine.physics import ragdoll
 
 ANKLE_ROWS, TOE_ROWS = list(ANKLES), list(TOES)
+SAME_TURN = 1e-9  # of a quaternion: a toe that is bent as planned, to the last digits
 BLENDING = (Phase.STARTLE, Phase.PROTECT, Phase.HOLD, Phase.RECOVER_BLEND, Phase.RECOVER_RETURN)
 PAUSING = (Phase.PROTECT, Phase.HOLD)  # the pose is there, the ball is not
 
@@ -198,15 +199,17 @@ def choose_first_ways(world, row: int, tick: int) -> None:
 
 def foot_goals(world, row: int, tick: float, source: Pose) -> FootGoals:
     """Where both ankles are to be: by the plan where a foot stands, else where the source has them: a foot in the air
-    may be behind its plan, as far as leg and ankle go.
+    may be behind its plan, as far as leg and ankle go, and one that stands may be on its toes.
     """
     planned = goals_of(world[Feet], row, tick)
     positions, orientations = joints_of(body_of(world, row), source)
-    loose = (~planned.bound | (planned.bears < 1.0))[:, None]
+    ankles_m, toes = positions[ANKLE_ROWS], source.rotations[TOE_ROWS]
+    rolled = (np.abs(toes - planned.toe) > SAME_TURN).any(axis=1)
+    loose = (~planned.bound | (planned.bears < 1.0) | rolled)[:, None]
     return FootGoals(
-        np.where(loose, positions[ANKLE_ROWS], planned.ankle_m),
+        np.where(loose, ankles_m, planned.ankle_m),
         np.where(loose, orientations[ANKLE_ROWS], planned.turned),
-        np.where(loose, source.rotations[TOE_ROWS], planned.toe),
+        np.where(loose, toes, planned.toe),
         np.ones(2, bool),
         planned.bears,
     )

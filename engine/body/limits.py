@@ -122,6 +122,17 @@ def clamp_pose(body, reference, rotations):
         rotations[j, 0], rotations[j, 1], rotations[j, 2], rotations[j, 3] = q
 
 
+@njit(cache=True)
+def beyond_limits(low, high, rotations):
+    """(J, 3) how far each component of a pose (J, 4) is beyond its limits (J, 3), radians, negative below."""
+    out = np.empty((JOINT_COUNT, 3))
+    for j in range(JOINT_COUNT):
+        c = components(rotations[j])
+        for k in range(3):
+            out[j, k] = max(c[k] - high[j, k], 0.0) + min(c[k] - low[j, k], 0.0)
+    return out
+
+
 @inner_kernel
 def _overrun(low, high, value):
     """The farthest that a component lies outside; 0 when all are inside."""

@@ -6,6 +6,8 @@ away from there.
 
 from __future__ import annotations
 
+import math
+
 from engine.body.limits import components
 from engine.body.skeleton import JOINT_COUNT
 from engine.maths import quaternion
@@ -13,9 +15,10 @@ from engine.maths.inner_kernel import inner_kernel
 from engine.maths.kernel import njit
 
 NEAR_RAD = 0.4  # of its limit: nothing turns farther than this in `stops.EASE_S`
-CREEP_RADPS = 0.3
+CREEP_RADPS, CREEP_RAD = 0.3, math.radians(0.3)  # what a limp joint gives, and how far that goes
 TOUCHING_RAD = 0.05  # what a blow closes at once: this counts as touching
 MOST_SWING_RAD = 2.9  # nearer to half a turn, where the axis of a swing flips, its components say nothing
+NEAR_RADPS = 0.5  # a bound that is met by less than this may be broken by the impulses of others: it is kept in view
 NUDGE_RAD = 1e-6
 
 
@@ -31,7 +34,7 @@ def limits_into(qpos, qvel, low, high, target, ease_s, limp, farthest_rad, rows,
 @inner_kernel
 def _limits_of(j, qpos, qvel, low, high, target, ease_s, limp, farthest_rad, rows, least, count):
     """Adds the rows of one joint's limits, those that the target oversteps moved out to it: all that are not far, if
-    one is broken, since what holds that one turns into the others."""
+    one is broken or nearly so, since what holds that one turns into the others."""
     a, v = 3 + 4 * j, 3 + 3 * j
     q = quaternion.normalise((qpos[a], qpos[a + 1], qpos[a + 2], qpos[a + 3]))
     now, aim = components(q), components(target)
@@ -58,8 +61,9 @@ def _limits_of(j, qpos, qvel, low, high, target, ease_s, limp, farthest_rad, row
                 slope = sign * (turned[axis][k] - now[k]) / NUDGE_RAD
                 rows[count, v + axis] = slope
                 rate += slope * qvel[v + axis]
-            least[count] = -max(room, 0.0) / ease_s - limp * CREEP_RADPS
-            broken |= rate < least[count]
+            creep = CREEP_RADPS * min(max(1.0 + room / CREEP_RAD, 0.0), 1.0)
+            least[count] = -max(room, 0.0) / ease_s - limp * creep
+            broken |= rate < least[count] + NEAR_RADPS
             count += 1
     if broken:
         return count

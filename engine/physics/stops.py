@@ -29,6 +29,7 @@ from engine.physics.rows import MOST_ROWS, rate_of
 
 EASE_S = 0.006
 SWEEPS = 40
+PASSES = 3  # what holds one joint may turn another, which was not in view, past its own stop
 LEAST_GIVE = 1e-9  # 1 / kg, 1 / kg m^2: what gives less is no stop, its row is all but nothing
 LEAST_NEW = 1e-8  # of what it gives: the rest of a row that others leave
 
@@ -40,6 +41,20 @@ def hold(model, qpos_before: np.ndarray, target: np.ndarray, limp: float, h: flo
     and soft contacts, which know of the floor: else a limp body that lies on its hands would never come to rest. Uses
     the mass matrix of that step, servos included.
     """
+    m, d, moved = model.mujoco_model, model.data, False
+    for _ in range(PASSES):
+        if not _meet_those_in_view(model, qpos_before, target, limp, h):
+            break
+        moved = True
+    if moved:
+        d.qpos[:] = qpos_before
+        mujoco.mj_integratePos(m, d.qpos, d.qvel, h)
+
+
+def _meet_those_in_view(model, qpos_before: np.ndarray, target: np.ndarray, limp: float, h: float) -> bool:
+    """Changes the velocities in MuJoCo's data so that the stops that they break, or nearly do, are met; whether any was
+    broken.
+    """
     m, d, body = model.mujoco_model, model.data, model.body
     rows, least = np.zeros((MOST_ROWS, m.nv)), np.empty(MOST_ROWS)
     count = find(
@@ -47,13 +62,11 @@ def hold(model, qpos_before: np.ndarray, target: np.ndarray, limp: float, h: flo
         qpos_before, d.qvel, max(EASE_S, h), h, limp, FARTHEST_M, NEAR_RAD, rows, least,
     )  # fmt: skip
     if count == 0:
-        return
+        return False
     rows, least = rows[:count], least[:count]
     answers = np.empty_like(rows)
     mujoco.mj_solveM(m, d, answers, rows)
-    if meet(rows, answers, least, d.qvel):
-        d.qpos[:] = qpos_before
-        mujoco.mj_integratePos(m, d.qpos, d.qvel, h)
+    return bool(meet(rows, answers, least, d.qvel))
 
 
 def braces(model, qpos: np.ndarray, towards: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
