@@ -78,7 +78,8 @@ def stand_without(body, footing, first_m, first, taken, root_m, rotations):
     """Writes the pose (3,), (J, 4) that a first one becomes, on its feet, without a share of its pelvis's residual."""
     for k in range(3):
         root_m[k] = first_m[k] + taken * (footing.source_m[k] - first_m[k])
-    rotations[:] = first
+    for j in range(JOINT_COUNT):
+        quaternion.put(rotations, j, quaternion.at(first, j))
     quaternion.put(rotations, PELVIS, quaternion.slerp(first[PELVIS], footing.source[PELVIS], taken))
     stand_on(body, footing, root_m, rotations)
 
