@@ -12,8 +12,6 @@ from __future__ import annotations
 import math
 from typing import NamedTuple
 
-from numba import njit
-
 from behaviours.limb_freedom import Leg, place_children, turn_leg
 from behaviours.timing import ease
 from engine.body.limb_ik import apply_leg, leg_swivel, side_sign
@@ -21,6 +19,7 @@ from engine.body.limits import components
 from engine.body.skeleton import ANKLES, HIPS, KNEES, PELVIS, TOES
 from engine.maths import quaternion, vector
 from engine.maths.inner_kernel import inner_kernel
+from engine.maths.kernel import njit
 
 GIVE_RAD = math.radians(0.2)  # a limit pushes from this much before it on, and gives this much;
 EARLY_RAD = math.radians(8.0)  # a pelvis that runs on is held back from this much before a limit on: no dead stop

@@ -10,7 +10,6 @@ from __future__ import annotations
 from typing import NamedTuple
 
 import numpy as np
-from numba import njit
 
 from behaviours.held_feet import LEG_SOFT_M, drop_beyond_own
 from behaviours.leg_limits import EARLY_RAD, GIVE_RAD, bounds_over, free_knee, raise_heel
@@ -20,6 +19,7 @@ from engine.body.limits import components
 from engine.body.skeleton import ANKLES, HIPS, JOINT_COUNT, PELVIS
 from engine.maths import quaternion
 from engine.maths.inner_kernel import inner_kernel
+from engine.maths.kernel import njit
 
 HALVINGS = 8  # and one straight line: how much of a pelvis's residual is taken, to a hair
 
