@@ -15,8 +15,8 @@ from engine.maths.kernel import njit
 
 @njit(cache=True)
 def blend_lying(body, start, end, weight, ways, root_m, rotations):
-    """Every rotation slerped, a hinge's as it turns, but the arms', which go their ways, the root on a straight line, on the floor: what is
-    lowest goes evenly from the one height to the other.
+    """Every rotation slerped, a knee's as it turns, but the arms', which go their ways, the root on a straight line, on
+    the floor: what is lowest goes evenly from the one height to the other.
 
     `start`, `end`: BlendEnds; ways: HandWays. Writes root_m (3,) and rotations (J, 4).
     """
