@@ -13,7 +13,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from behaviours.arm_ways import INTERPOLATED, KNOT_PARTS, KNOTS, SLERPED, SWUNG, follow_way, overstep
+from behaviours.arm_ways import INTERPOLATED, KNOT_PARTS, KNOTS, SLERPED, SWUNG, follow_way, overstep, yielding
 from behaviours.blending import BlendEnd
 from behaviours.overlap import ARM_CAPSULES, PAIRS, too_deep
 from behaviours.swung_ways import bend_swung, put_capsules
@@ -27,7 +27,8 @@ from engine.maths.kernel import njit
 
 MOMENTS = 25  # at which a way is judged
 APART_M = 0.010  # skins keep this far from each other, where they are so far at the ends
-TOLERATED_M, TOLERATED_RAD = 0.008, 0.005  # a way is good if it comes this near to what it should not
+TOLERATED_M = 0.008  # a way is good if it comes this near to what it should not
+TOLERATED_RAD = 0.028  # or would go so far beyond a limit, of which only what a limit gives is left
 STRIDE_M = 1.6  # an elbow that at its fastest would go farther than this in a whole blend turns over
 FAR_AWAY_M = 1e3
 ROUNDS = 3
@@ -82,7 +83,7 @@ def is_good(body, capsules, start, end, moments, side, ways, other_m):
         beyond = overstep(
             body, shoulder, start.rotations[shoulder], end.rotations[shoulder], weight, rotations[shoulder]
         )[0]
-        good = good and max(abs(beyond[0]), abs(beyond[1]), abs(beyond[2])) < TOLERATED_RAD
+        good = good and max(abs(beyond[0]), abs(beyond[1]), abs(beyond[2])) < yielding(TOLERATED_RAD)
         for n in range(len(PAIRS)):
             deep = too_deep(capsules.radius_m, n, side, k, moments.ends_m, other_m, moments.allowed_m)
             good = good and deep < TOLERATED_M

@@ -92,6 +92,15 @@ def test_a_way_has_no_pops(round_the_head):
     assert np.linalg.norm(np.diff(joints_m, 2, axis=0), axis=2).max() < 12.0 * (FINE[1] - FINE[0]) ** 2
 
 
+@pytest.mark.parametrize("last_twist_deg", [33.0, 60.0, 90.0])
+def test_no_arm_is_led_through_the_twist_that_a_shoulder_does_not_have(last_twist_deg):
+    """Straight, the shoulder would turn past half a turn of twist, and its limits throw it to the other side there."""
+    first = with_arm(at_ease(), 0, (95.0, 50.0, -126.0), 134.0)
+    last = with_arm(at_ease(), 0, (100.0, -20.0, last_twist_deg), 110.0)
+    wrist_m = joints_of(BODY, followed(first, last, chosen(first, last)))[0][:, WRISTS[0]]
+    assert np.linalg.norm(np.diff(wrist_m, axis=0), axis=1).max() < 0.05  # in a hundredth of the way
+
+
 def test_a_chosen_way_ends_where_the_blend_ends(round_the_head):
     poses = followed(ACROSS, BEHIND, round_the_head, [0.0, 1.0])
     for k, wanted in enumerate((ACROSS, BEHIND)):
