@@ -7,6 +7,7 @@ source; after the change `begin_seam` measures what that motion has beyond the n
 
 from __future__ import annotations
 
+import math
 from typing import NamedTuple
 
 import numpy as np
@@ -21,6 +22,7 @@ from behaviours.timing import TICK_S
 from engine.body.kinematics import joints_of
 from engine.body.limits import beyond_limits
 from engine.body.skeleton import ANKLES, TOES, Body, Pose
+from engine.maths.kernel import njit
 
 MOMENT = 1.0 / 512.0  # of a tick: short enough for a velocity, long enough for its digits
 STILL_FOOT_M = 5e-4  # a foot that goes no farther than this stands
@@ -98,13 +100,18 @@ def is_over(world, row: int, tick: float, half_life_s: float) -> bool:
 def foot_is_still(world, row: int, side: int, tick: int, half_life_s: float) -> bool:
     """Whether what is left of the last seam can no longer move this foot, place or sole."""
     r = world[Residual]
-    t, y = elapsed_s(world, row, tick), 2.0 * np.log(2.0) / half_life_s
-    left = 0.0
-    parts = (
-        (r.ankles[row, :, side], 1.0),
-        (r.ankle_turns[row, :, side], FOOT_LEVER_M),
-        (r.joints[row, :, TOES[side]], TOE_LEVER_M),
+    toe = r.joints[row, :, TOES[side]]
+    most_m = still_moves_m(
+        r.ankles[row, :, side], r.ankle_turns[row, :, side], toe, elapsed_s(world, row, tick), half_life_s
     )
-    for offsets, lever_m in parts:
-        left += lever_m * (np.abs(offsets[0]).sum() * (1.0 + y * t) + np.abs(offsets[1]).sum() * max(t, 1.0 / y))
-    return bool(left * np.exp(-y * t) < STILL_FOOT_M)
+    return most_m < STILL_FOOT_M
+
+
+@njit(cache=True)
+def still_moves_m(ankle, ankle_turn, toe, elapsed_s, half_life_s):
+    """The most that what is left of a foot's residuals, (2, 3) each, offset and velocity, can still move it; metres."""
+    y, offsets, speeds = 2.0 * math.log(2.0) / half_life_s, 0.0, 0.0
+    for k in range(3):
+        offsets += abs(ankle[0, k]) + FOOT_LEVER_M * abs(ankle_turn[0, k]) + TOE_LEVER_M * abs(toe[0, k])
+        speeds += abs(ankle[1, k]) + FOOT_LEVER_M * abs(ankle_turn[1, k]) + TOE_LEVER_M * abs(toe[1, k])
+    return (offsets * (1.0 + y * elapsed_s) + speeds * max(elapsed_s, 1.0 / y)) * math.exp(-y * elapsed_s)

@@ -29,9 +29,9 @@ from behaviours.playing import body_of, capsules_of, clip_time_s, planted_in_cli
 from behaviours.pushed_out import keep_arms_out
 from behaviours.settled_legs import Footing, stand
 from behaviours.sources import foot_goals, note_knees, source_pose
-from engine.body.kinematics import joints_of
+from engine.body.kinematics import joints_into
 from engine.body.limits import components, from_components
-from engine.body.skeleton import ANKLES, HIPS, KNEES, PELVIS
+from engine.body.skeleton import ANKLES, HIPS, JOINT_COUNT, KNEES, PELVIS
 from engine.core.schedule import Stage, system
 from engine.maths import quaternion, springs, vector
 from engine.maths.inner_kernel import inner_kernel
@@ -174,17 +174,27 @@ def standing_feet(world, row: int, tick: int) -> list[bool]:
         return list(planted_in_clip(world, row, clip_time_s(world, row, tick)))
     if phase in (Phase.RESPOND, Phase.DOWN):
         return [False, False]
-    half_life_s, flat = world.assets.settings.blend.seam_half_life_s, flat_feet(world, row, tick)
-    return [
-        foot_plan.stands(world[Feet], row, side, tick)
-        and seams.foot_is_still(world, row, side, tick, half_life_s)
-        and bool(flat[side])
+    half_life_s = world.assets.settings.blend.seam_half_life_s
+    stand = [
+        foot_plan.stands(world[Feet], row, side, tick) and seams.foot_is_still(world, row, side, tick, half_life_s)
         for side in range(2)
     ]
+    if not any(stand):
+        return stand
+    return [stands and flat for stands, flat in zip(stand, flat_feet(world, row, tick), strict=True)]
 
 
-def flat_feet(world, row: int, tick: int) -> np.ndarray:
-    """(2,) bool: which feet are shown where they are planned, and not on their toes."""
-    positions, _ = joints_of(body_of(world, row), seams.shown(world, row)[0])
-    off_m = positions[list(ANKLES)] - foot_plan.goals_of(world[Feet], row, tick).ankle_m
-    return np.sum(off_m * off_m, axis=1) < seams.STILL_FOOT_M**2
+def flat_feet(world, row: int, tick: int) -> tuple[bool, bool]:
+    """Which feet are shown where they are planned, and not on their toes."""
+    p, goals = world[Posture], foot_plan.goals_of(world[Feet], row, tick)
+    left_m, right_m = ankles_off_m(body_of(world, row), p.root_m[row], p.rotations[row], goals.ankle_m)
+    return left_m < seams.STILL_FOOT_M, right_m < seams.STILL_FOOT_M
+
+
+@njit(cache=True)
+def ankles_off_m(body, root_m, rotations, goals_m):
+    """How far a pose's ankles are from their goals (2, 3), metres, left and right."""
+    positions, orientations = np.empty((JOINT_COUNT, 3)), np.empty((JOINT_COUNT, 4))
+    joints_into(body.offset_m, root_m, rotations, positions, orientations)
+    left, right = vector.at(positions, ANKLES[0]), vector.at(positions, ANKLES[1])
+    return vector.distance(left, vector.at(goals_m, 0)), vector.distance(right, vector.at(goals_m, 1))

@@ -20,11 +20,11 @@ from behaviours.overlap import PAIRS
 from behaviours.playing import body_of, capsules_of, clip_pose, clip_time_s
 from behaviours.pushed_out import let_lines_be, push_arms_out
 from behaviours.timing import TICK_S, ease, overshoot, whole_ticks
-from engine.body.kinematics import joints_of
+from engine.body.kinematics import joints_into, joints_of
 from engine.body.skeleton import ANKLES, HIPS, JOINT_COUNT, KNEES, TOES, WAIST, Pose
+from engine.maths.kernel import njit
 from engine.physics import ragdoll
 
-ANKLE_ROWS, TOE_ROWS = list(ANKLES), list(TOES)
 SAME_TURN = 1e-9  # of a quaternion: a toe that is bent as planned, to the last digits
 BLENDING = (Phase.STARTLE, Phase.PROTECT, Phase.HOLD, Phase.RECOVER_BLEND, Phase.RECOVER_RETURN)
 PAUSING = (Phase.PROTECT, Phase.HOLD)  # the pose is there, the ball is not
@@ -201,15 +201,23 @@ def foot_goals(world, row: int, tick: float, source: Pose) -> FootGoals:
     """Where both ankles are to be: by the plan where a foot stands, else where the source has them: a foot in the air
     may be behind its plan, as far as leg and ankle go, and one that stands may be on its toes.
     """
-    planned = goals_of(world[Feet], row, tick)
-    positions, orientations = joints_of(body_of(world, row), source)
-    ankles_m, toes = positions[ANKLE_ROWS], source.rotations[TOE_ROWS]
-    rolled = (np.abs(toes - planned.toe) > SAME_TURN).any(axis=1)
-    loose = (~planned.bound | (planned.bears < 1.0) | rolled)[:, None]
-    return FootGoals(
-        np.where(loose, ankles_m, planned.ankle_m),
-        np.where(loose, orientations[ANKLE_ROWS], planned.turned),
-        np.where(loose, toes, planned.toe),
-        np.ones(2, bool),
-        planned.bears,
-    )
+    goals = goals_of(world[Feet], row, tick)
+    goals_over(body_of(world, row), *source, *goals)
+    return goals
+
+
+@njit(cache=True)
+def goals_over(body, root_m, rotations, ankle_m, turned, toe, bound, bears):
+    """Goals of both feet, `held_feet.FootGoals`, given up for a pose's own where that leaves them, in place."""
+    positions, orientations = np.empty((JOINT_COUNT, 3)), np.empty((JOINT_COUNT, 4))
+    joints_into(body.offset_m, root_m, rotations, positions, orientations)
+    for side in range(2):
+        ankle, bent, rolled = ANKLES[side], TOES[side], 0.0
+        for k in range(4):
+            rolled = max(rolled, abs(rotations[bent, k] - toe[side, k]))
+        if not bound[side] or bears[side] < 1.0 or rolled > SAME_TURN:
+            for k in range(3):
+                ankle_m[side, k] = positions[ankle, k]
+            for k in range(4):
+                turned[side, k], toe[side, k] = orientations[ankle, k], rotations[bent, k]
+        bound[side] = True
