@@ -12,7 +12,7 @@ from engine.body.kinematics import joints_into
 from engine.body.limb_ik import apply_leg, knee_zero, leg_swivel, side_sign
 from engine.body.skeleton import ANKLES, HIPS, JOINT_COUNT, KNEES, TOES
 from engine.body.two_bones import soft_reach
-from engine.maths import vector
+from engine.maths import springs, vector
 from engine.maths.inner_kernel import inner_kernel
 from engine.maths.kernel import njit
 
@@ -21,6 +21,7 @@ AIR_SOFT_M = 0.006  # whose foot may stay behind, over a few times this, before 
 LYING_LEG, STANDING_LEG = 0.2, 0.5  # hip over ankle in shares of the leg: it lies, or it may be standing
 UNDECIDED_M = 1e-4  # a knee this near to the line from hip to ankle points nowhere
 LEG_SPARE_M = 0.0005  # a leg stays this much short of it, but where its own motion has it straighter
+LEAST_ROOM_M = 2e-5  # a leg is slowed down over no less: one as straight as that keeps its velocity at a seam
 
 
 class FootGoals(NamedTuple):
@@ -91,6 +92,48 @@ def legs_to(body, root_m, rotations, ankle_m):
     positions = np.empty((JOINT_COUNT, 3))
     joints_into(body.offset_m, root_m, rotations, positions, np.empty((JOINT_COUNT, 4)))
     return vector.distance(positions[HIPS[0]], ankle_m[0]), vector.distance(positions[HIPS[1]], ankle_m[1])
+
+
+@njit(cache=True)
+def lengths_left(body, source_m, stretch, elapsed_s, half_life_s):
+    """(left, right): how long the legs of a source are, with what is left of the last seam's stretch, metres.
+
+    source_m (2,): in the source; stretch (2, 2): by how much the old motion's were longer at the seam, metres, then how
+    fast that grew, m/s. See `braked`: a residual's speed carries on, but does not carry a leg straight.
+    """
+    return (
+        _length_left(body, 0, source_m[0], stretch[0, 0], stretch[1, 0], elapsed_s, half_life_s),
+        _length_left(body, 1, source_m[1], stretch[0, 1], stretch[1, 1], elapsed_s, half_life_s),
+    )
+
+
+@inner_kernel
+def _length_left(body, side, source_m, stretch_m, stretch_mps, elapsed_s, half_life_s):
+    length_m = source_m + springs.decaying(stretch_m, stretch_mps, half_life_s, elapsed_s)[0]
+    old_m = source_m + springs.decaying(max(stretch_m, 0.0), 0.0, half_life_s, elapsed_s)[0]
+    return braked(length_m, old_m, leg_full_m(body, side))
+
+
+@inner_kernel
+def leg_full_m(body, side):
+    """From hip to ankle of a straight leg, metres."""
+    return vector.length(vector.at(body.offset_m, KNEES[side])) + vector.length(vector.at(body.offset_m, ANKLES[side]))
+
+
+@njit(cache=True)
+def braked(length_m, own_m, full_m):
+    """A leg's length, slowed down smoothly before it is straight, or from `own_m` on, if that is straighter already.
+
+    The knee of a straight leg, once let go, leaves at a speed without bounds: its bend grows as the root of what the
+    leg is short of its full length. From LEG_SOFT_M before, the length nears LEG_SPARE_M short of it, or half of what
+    is left, exponentially: with slope 1 at first, so that a seam there keeps its velocity.
+    """
+    begins_m = max(own_m, full_m - LEG_SPARE_M - LEG_SOFT_M)
+    left_m = full_m - begins_m
+    room_m = max(left_m - LEG_SPARE_M, 0.5 * left_m, LEAST_ROOM_M)
+    if length_m <= begins_m:
+        return length_m
+    return begins_m + room_m * (1.0 - math.exp((begins_m - length_m) / room_m))
 
 
 @inner_kernel

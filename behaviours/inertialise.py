@@ -22,13 +22,6 @@ def remaining(offset, velocity, elapsed_s, half_life_s):
 
 
 @njit(cache=True)
-def remaining2(offsets, elapsed_s, half_life_s):
-    """The same for two numbers: offsets (2, 2), values then velocities."""
-    left = springs.decaying(offsets[0, 0], offsets[1, 0], half_life_s, elapsed_s)[0]
-    return left, springs.decaying(offsets[0, 1], offsets[1, 1], half_life_s, elapsed_s)[0]
-
-
-@njit(cache=True)
 def turn_from(source, shown):
     """The rotation vector, in the parent's frame, that takes the source's orientation to the shown one."""
     return quaternion.to_rotation_vector(quaternion.multiply(shown, quaternion.conjugate(source)))

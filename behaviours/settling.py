@@ -22,8 +22,8 @@ from behaviours.components import (
     Residual,
     Sustained,
 )
-from behaviours.held_feet import legs_to
-from behaviours.inertialise import add_remaining, nothing_left, remaining, remaining2, turned_by
+from behaviours.held_feet import legs_to, lengths_left
+from behaviours.inertialise import add_remaining, nothing_left, remaining, turned_by
 from behaviours.leg_limits import EARLY_RAD
 from behaviours.playing import body_of, capsules_of, clip_time_s, planted_in_clip
 from behaviours.pushed_out import keep_arms_out
@@ -149,9 +149,8 @@ def settled_pose(world, row: int, tick: float) -> tuple[np.ndarray, np.ndarray]:
         return source.root_m, source.rotations
     goals = foot_goals(world, row, tick, source)
     elapsed_s, body = seams.elapsed_s(world, row, tick), body_of(world, row)
-    left = remaining2(r.stretch[row], elapsed_s, half_life_s)
-    own = legs_to(body, source.root_m, source.rotations, goals.ankle_m)
-    own_lengths = (own[0] + left[0], own[1] + left[1])
+    in_source_m = legs_to(body, source.root_m, source.rotations, goals.ankle_m)
+    own_lengths = lengths_left(body, in_source_m, r.stretch[row], elapsed_s, half_life_s)
     unaltered, unaltered_m = source.rotations.copy(), source.root_m.copy()
     add_remaining(source.root_m, source.rotations, r.root[row], r.joints[row], elapsed_s, half_life_s)
     old_s = OLD_SHARE * half_life_s
