@@ -2,7 +2,8 @@
 in flight lands first.
 
 A step that ends early puts the foot where the body is yet to come. So the soonest is taken of a few durations at which
-the legs reach and the blend keeps what it promises: the COM on its line, joints within limits.
+the legs reach, without being snatched straight, and the blend keeps what it promises: the COM on its line, joints
+within limits.
 """
 
 from __future__ import annotations
@@ -18,16 +19,17 @@ from behaviours.blending import BlendEnd
 from behaviours.components import Blend, Feet, Sustained
 from behaviours.playing import body_of, clip_time_s, planted_in_clip
 from behaviours.sources import blend_ends, blended_pose, choose_hand_ways
-from behaviours.timing import whole_ticks
-from engine.body.kinematics import com_of
+from behaviours.timing import TICK_S, whole_ticks
+from engine.body.kinematics import com_of, joints_of
 from engine.body.limits import excess_rad
-from engine.body.skeleton import HEAD, HIPS, JOINT_COUNT, PELVIS, Pose
+from engine.body.skeleton import HEAD, HIPS, JOINT_COUNT, KNEES, PELVIS, Pose
 from engine.maths import vector
 
 STEP_SHARE = 0.9  # of the time to contact: a foot stands before the blow comes
 TRIES = 5  # durations of a step that are tried, the soonest first
 MOMENTS = 10  # of the blend that are looked at, from when the foot begins to bear again
 TOLERATED_M, TOLERATED_RAD = 0.003, math.radians(0.3)
+SNATCHED_MPS = 3.5  # a knee that changes its velocity by more from one tick to the next pops
 WORTH_A_STEP = 0.5  # of the trouble of standing still: more than that, and a foot had rather stand
 CARRYING = tuple(j for j in range(PELVIS, JOINT_COUNT) if j <= HEAD or j >= HIPS[0])  # trunk, neck, head and legs
 
@@ -65,7 +67,8 @@ def hasten_steps(world, row: int, tick: int, plan: Callable[[float], None], late
         return False
     for ticks in np.linspace(soonest, latest, TRIES)[:-1]:
         plan(float(ticks))
-        if trouble(world, row, tick, float(ticks), 1.0) <= 1.0:
+        calm = trouble(world, row, tick, float(ticks), 1.0) <= 1.0
+        if calm and knees_snatched_mps(world, row, tick, float(ticks)) <= SNATCHED_MPS:
             return True
     plan(latest)
     return False
@@ -112,6 +115,17 @@ def trouble(world, row: int, tick: int, ticks: float, most: float = math.inf) ->
         if worst > most:
             break
     return worst
+
+
+def knees_snatched_mps(world, row: int, tick: int, ticks: float) -> float:
+    """The greatest change of either knee's velocity from one tick of the blend to the next, from when the feet of steps
+    that take so long begin to bear again until they stand, m/s: a leg that reaches only just, and fast, snaps straight.
+    """
+    body, since = body_of(world, row), tick - 1
+    landing = np.arange(math.floor(since + foot_plan.LANDS * ticks), math.ceil(since + ticks) + 1)
+    knees_m = np.array([joints_of(body, blended_pose(world, row, float(at)))[0][list(KNEES)] for at in landing])
+    change_m = np.diff(knees_m, 2, axis=0)
+    return float(np.linalg.norm(change_m, axis=2).max(initial=0.0)) / TICK_S
 
 
 def land(world, row: int, tick: int, now: Pose, to: Pose, left: float) -> None:

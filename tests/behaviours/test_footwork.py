@@ -9,9 +9,10 @@ from behaviours import feet as foot_plan
 from behaviours.components import Blend, Feet, Phase, Reaction
 from behaviours.footwork import STEP_SHARE, TOLERATED_RAD, relieve_a_foot, trouble
 from behaviours.measures import com_line_deviation_max_m, joint_limit_excess, runs
+from behaviours.timing import TICK_S
 from engine.body import support
 from engine.body.kinematics import joints_of
-from engine.body.skeleton import Pose
+from engine.body.skeleton import KNEES, Pose
 from engine.clips.playback import planted_at
 from tests.behaviours.runs import AHEAD, events, phases, run, simulation_of, track_of
 
@@ -87,6 +88,20 @@ def test_a_step_is_over_soon_where_the_leg_reaches(library_clip):
     track = track_of(simulation)
     assert com_line_deviation_max_m(track.lines) < 0.005
     assert np.degrees(joint_limit_excess(track)["protect"].value) < 0.5 + np.degrees(TOLERATED_RAD)
+
+
+@pytest.mark.parametrize(
+    ("start_s", "where"),
+    [(0.3946, {"azimuth_deg": -123.0, "elevation_deg": 8.8, "speed_mps": 28.36, "size": 0.12}),
+     (1.0646, {"azimuth_deg": -161.6, "elevation_deg": -0.5, "speed_mps": 25.81, "size": 0.21})],
+)  # fmt: skip
+def test_no_leg_is_snatched_straight_for_a_step_that_is_soon_over(start_s, where, library_clip):
+    """A runner's long step away from where the body is: it takes longer."""
+    threat = AHEAD | {"perceived_s": 0.15} | where
+    track = track_of(run([threat], clip=library_clip("run"), start_s=start_s, startle=False))
+    guarding = np.isin(track.phase, ON_GUARD)
+    knees_m = joints_of(track.body, track.pose)[0][guarding][:, list(KNEES)]
+    assert np.linalg.norm(np.diff(knees_m, 2, axis=0), axis=2).max() / TICK_S < 4.0
 
 
 def test_a_foot_is_relieved_only_where_standing_is_trouble():
