@@ -114,6 +114,15 @@ def _length_left(body, side, source_m, stretch_m, stretch_mps, elapsed_s, half_l
     return braked(length_m, old_m, leg_full_m(body, side))
 
 
+@njit(cache=True)
+def kept_bent(body, lengths_m):
+    """(left, right): legs' lengths as they are, but none straighter than LEG_SPARE_M short of straight, metres."""
+    return (
+        min(lengths_m[0], leg_full_m(body, 0) - LEG_SPARE_M),
+        min(lengths_m[1], leg_full_m(body, 1) - LEG_SPARE_M),
+    )
+
+
 @inner_kernel
 def leg_full_m(body, side):
     """From hip to ankle of a straight leg, metres."""

@@ -32,7 +32,7 @@ from behaviours.components import (
 )
 from behaviours.falling import begin_falling
 from behaviours.footwork import land, step_into
-from behaviours.held_feet import hold_feet, knees_between, leg_lengths
+from behaviours.held_feet import hold_feet, kept_bent, knees_between, leg_lengths
 from behaviours.knocked_down import has_fallen, response_is_over
 from behaviours.playing import body_of, capsules_of, clip_pose, clip_time_s, perception_clip_s, planted_in_clip
 from behaviours.protection import flight_ticks, perceived_threat, protect_from
@@ -115,7 +115,7 @@ def standing_in(world, row: int, tick: int, pose: Pose) -> Pose:
     end = blend_end(body, capsules_of(world, row), *pose)
     goals = foot_plan.goals_of(world[Feet], row, tick)
     knees = knees_between(end, end, False, end.positions[list(KNEES)])
-    own = leg_lengths(end.positions)
+    own = kept_bent(body, leg_lengths(end.positions))  # a knee that is dead straight leaves at a speed without bounds
     hold_feet(body, goals, own, knees, 0.0, end.root_m, end.rotations, end.positions, end.orientations)
     return lift_out_of_floor(body, Pose(end.root_m, end.rotations), ~goals.bound)
 

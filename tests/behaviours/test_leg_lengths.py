@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from behaviours.held_feet import LEG_SPARE_M, lengths_left
+from behaviours.held_feet import LEG_SPARE_M, kept_bent, lengths_left
 from engine.body.skeleton import ANKLES, KNEES
 from tests.behaviours.people import BODY
 
@@ -40,3 +40,9 @@ def test_a_seam_keeps_the_length_and_its_velocity(source_m, shown_m, mps):
 @given(shorts_m, shorts_m, speeds_mps)
 def test_nothing_is_left_of_it_in_the_end(source_m, shown_m, mps):
     assert FULL_M - left_m(source_m, shown_m, mps, 3.0) == pytest.approx(source_m, abs=1e-6)
+
+
+def test_a_leg_that_is_to_stand_is_never_dead_straight():
+    """A bent leg keeps its length to the bit; a straight one gives up LEG_SPARE_M of it."""
+    full_m = np.linalg.norm(BODY.offset_m[list(KNEES)], axis=1) + np.linalg.norm(BODY.offset_m[list(ANKLES)], axis=1)
+    assert kept_bent(BODY, (0.7, full_m[1])) == (0.7, pytest.approx(full_m[1] - LEG_SPARE_M, abs=1e-12))
