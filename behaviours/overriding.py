@@ -1,4 +1,4 @@
-"""Constants changed by name, as a scenario's `[settings]`, `--set` and the window's sliders do.
+"""Constants listed and changed by name, as a scenario's `[settings]`, `--set` and the window's sliders do.
 
 settings = override(Settings(), {"block.reach_far_m": 0.8, "lean_turn.neck_deg": [50, 50, 65]})
 """
@@ -7,13 +7,24 @@ from __future__ import annotations
 
 from difflib import get_close_matches
 from math import isfinite, pi
-from typing import Any
+from typing import Any, get_type_hints
 
-from behaviours.settings import CHOICES, Settings, constants
+from behaviours.settings import CHOICES, Constant, Settings
 from engine.core.errors import BadInput
 
 WORDS = {float: "a finite number", int: "a whole number", bool: "true or false"}
 MOST_COUNT, LONGEST_S = 1_000_000, 60.0
+
+
+def constants() -> dict[str, Constant]:
+    """Dotted name -> unit, section, meaning, of every constant there is, in the order of `behaviours.settings`."""
+    table = {}
+    groups: tuple[Any, ...] = Settings()
+    for group_name, group in zip(Settings._fields, groups, strict=True):
+        hints = get_type_hints(type(group), include_extras=True)
+        for field in group._fields:
+            table[f"{group_name}.{field}"] = hints[field].__metadata__[0]
+    return table
 
 
 def override(settings: Settings, changes: dict[str, Any]) -> Settings:

@@ -8,7 +8,7 @@ numbers, so that a kernel takes it whole. Radians inside; `behaviours.overriding
 from __future__ import annotations
 
 from math import radians
-from typing import Annotated, Any, NamedTuple, get_type_hints
+from typing import Annotated, NamedTuple
 
 
 class Constant(NamedTuple):
@@ -339,14 +339,3 @@ CHOICES = {
     "timing.ttc_model": ("equation", "text"),
     "threats.low_path": ("raise", "shorten"),
 }
-
-
-def constants() -> dict[str, Constant]:
-    """Dotted name -> unit, section, meaning, of every constant there is, in the order of this file."""
-    table = {}
-    groups: tuple[Any, ...] = Settings()
-    for group_name, group in zip(Settings._fields, groups, strict=True):
-        hints = get_type_hints(type(group), include_extras=True)
-        for field in group._fields:
-            table[f"{group_name}.{field}"] = hints[field].__metadata__[0]
-    return table

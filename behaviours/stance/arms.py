@@ -14,7 +14,6 @@ from engine.maths.kernel import njit
 
 # slots of an arm's parameters, radians; zeros are the neutral arm
 OUT, FORWARD, ELBOW, TURN, PALM, SWIVEL = range(6)
-ARM_PARAMETERS = ("out", "forward", "elbow", "turn", "palm", "swivel")
 
 # the neutral arm: a little away from the thigh, the elbow soft, the palm turned a little back
 NEUTRAL_OUT, NEUTRAL_FORWARD, NEUTRAL_ELBOW, NEUTRAL_PALM = (math.radians(a) for a in (10.0, 2.0, 16.0, 12.0))

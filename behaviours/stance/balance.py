@@ -121,13 +121,6 @@ def _learn(inverse, moved, went):
             inverse[i, j] += (moved[i] - guess[i]) * left[j] / scale
 
 
-class Feedback(NamedTuple):
-    """Gains of the balance while animating, and its state: the offsets of the root ankle."""
-
-    offset_rad: np.ndarray  # (2,) the paper's X and Z
-    per_s: float = 12.0  # how much of the error is taken out in a second, as a rate
-
-
 def fed_back(search: BalanceSearch, offset_rad, error_m, per_s: float, dt_s: float):
     """The offsets after one tick of feedback (section 4): the error of the projection moves the ankle's Z and X axes.
 

@@ -11,9 +11,6 @@ from __future__ import annotations
 from engine.body import limits
 from engine.maths.kernel import njit
 
-# row of `Body.limit_low_rad` for each paper axis X, Y, Z
-LIMIT_OF_AXIS = (1, 2, 0)
-
 
 @njit(cache=True)
 def rotation(x_rad, y_rad, z_rad):

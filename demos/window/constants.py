@@ -10,7 +10,8 @@ import math
 from functools import lru_cache
 from typing import Any, NamedTuple
 
-from behaviours.settings import CHOICES, Settings, constants
+from behaviours.overriding import constants
+from behaviours.settings import CHOICES, Settings
 
 UNITS = {"1": "", "yes/no": "", "name": "", "count": "", "1/rad": "/rad", "rad": "°", "N s": "N s"}
 

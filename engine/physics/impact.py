@@ -47,7 +47,6 @@ class Material(NamedTuple):
 # 2012) and lose more the faster they come, a soccer ball at 25 m/s another 0.1 (Price, Jones and Harland 2006); flesh
 # takes its part. Hollow balls grip at almost every angle: friction 0.5 and up (Cross 2014, Oblique bounce of a ball).
 VOLLEYBALL_ON_SKIN = Material(0.65, 0.6)
-VOLLEYBALL_ON_FLOOR = Material(0.75, 0.6)
 VOLLEYBALL_CONTACT_S = 0.010  # spec A8
 
 

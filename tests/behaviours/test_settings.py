@@ -4,8 +4,8 @@ import math
 
 import pytest
 
-from behaviours.overriding import override
-from behaviours.settings import CHOICES, Settings, constants
+from behaviours.overriding import constants, override
+from behaviours.settings import CHOICES, Settings
 from engine.core.errors import BadInput
 
 

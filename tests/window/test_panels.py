@@ -2,8 +2,9 @@
 
 import pytest
 
+from behaviours.overriding import constants
 from behaviours.scenario import BODY_TARGETS, Scenario, check_scenario
-from behaviours.settings import Settings, constants
+from behaviours.settings import Settings
 from behaviours.simulation import flat_settings
 from behaviours.threats import KINDS
 from demos.window.clips_panel import ClipsPanel, Row, matches
