@@ -137,7 +137,9 @@ def begin_protecting(world, row: int, tick: int) -> None:
     old = moment_before(world, row, tick)
     now, lands = where_from(world, row, tick)
     sustained = Pose(s.root_m[row].copy(), s.rotations[row].copy())
-    takes = protecting_ticks(world, row, tick)
+    # taken up late, it is as far as it gets when the ball is there: nobody's arms fly up in no time
+    least = whole_ticks(settings.startle.least_sustained_s)
+    takes = max(protecting_ticks(world, row, tick), float(least))
     set_blend(world, row, tick, now, sustained, takes * (1.0 + settings.timing.slack_share))
     world[Blend].lands[row] = lands
     if lands > tick:
@@ -204,11 +206,11 @@ def protecting_ticks(world, row: int, tick: int) -> float:
 def notice(world, tick):
     """Whoever perceives a threat now works out the pose to meet it in, and startles or begins to protect (3, 4.2)."""
     threats, r, c = world[Threat], world[Reaction], world[Character]
-    for threat_row in world.rows(Threat, Flight):
-        if not threats.noticed[threat_row] or threats.taken_up[threat_row]:
+    for threat_row in soonest_first(world):
+        row = world.row(int(threats.at[threat_row]))
+        if waits(world, row, threat_row, tick):
             continue
         threats.taken_up[threat_row] = True
-        row = world.row(int(threats.at[threat_row]))
         if (r.phase[row] in BUSY and not r.flinches[row]) or not c.protects[row]:
             continue
         if threats.passes[threat_row]:
@@ -219,8 +221,7 @@ def notice(world, tick):
         r.struck[row], r.flinches[row] = False, False
         r.clip_s[row] = perception_clip_s(world, row, tick)
         ttc_s = (r.contact[row] - tick) * TICK_S
-        flies = r.phase[row] == Phase.PLAY and flight_ticks(world, row, float(r.clip_s[row]), ttc_s) > 0
-        startle = "off" if not c.startle[row] else "in the air" if flies else startles(world, ttc_s)
+        startle = startles(world, row, ttc_s)
         protect_from(world, row, perceived_threat(world, row, threat_row))
         world.emit(
             "perceived",
@@ -236,11 +237,34 @@ def notice(world, tick):
             begin_protecting(world, row, tick)
 
 
-def startles(world, ttc_s: float) -> str:
-    """Whether there is the time for a startle before the sustained pose (3.2.6)."""
-    settings = world.assets.settings
-    left_s = ttc_s - settings.timing.startle_s
-    return "taken" if left_s >= settings.startle.least_sustained_s else "too late"
+def soonest_first(world) -> list[int]:
+    """Rows of the threats that have been noticed and not been decided about, in the order in which they will come."""
+    threats = world[Threat]
+    rows = [int(row) for row in world.rows(Threat, Flight) if threats.noticed[row] and not threats.taken_up[row]]
+    return sorted(rows, key=lambda row: int(threats.contact[row]))
+
+
+def waits(world, row: int, threat_row: int, tick: int) -> bool:
+    """Whether a threat that still comes is kept in mind by somebody who is busy with another: one after the other."""
+    threats, r = world[Threat], world[Reaction]
+    if r.phase[row] not in BUSY or r.flinches[row] or not world[Character].protects[row]:
+        return False
+    gone = threats.passes[threat_row] or threats.spent[threat_row] or threats.strayed[threat_row]
+    return not gone and bool(tick < threats.contact[threat_row])
+
+
+def startles(world, row: int, ttc_s: float) -> str:
+    """Whether there is the time for a startle before the sustained pose (3.2.6), and the occasion: nobody's knees give
+    in flight, and a guard that is up already is not dropped to be startled.
+    """
+    r, settings = world[Reaction], world.assets.settings
+    if not world[Character].startle[row]:
+        return "off"
+    if r.phase[row] != Phase.PLAY:
+        return "on guard"
+    if flight_ticks(world, row, float(r.clip_s[row]), ttc_s) > 0:
+        return "in the air"
+    return "taken" if ttc_s - settings.timing.startle_s >= settings.startle.least_sustained_s else "too late"
 
 
 @system(Stage.DECIDE, reads=STATE, writes=STATE)

@@ -8,6 +8,7 @@ import pytest
 from behaviours.components import Blend, Phase, Playback
 from behaviours.measures import foot_slide_max_m, seam_jumps
 from behaviours.timing import TICK_S
+from engine.body.kinematics import joints_of
 from tests.behaviours.runs import AHEAD, events, phases, run, simulation_of, track_of
 
 
@@ -50,8 +51,6 @@ def test_planted_feet_stay_and_seams_are_smooth(blocked):
 
 def test_nothing_jumps_between_ticks(blocked):
     """A kink of a joint's path bigger than any muscle: the second difference, the tick of the blow left out."""
-    from engine.body.kinematics import joints_of
-
     track = track_of(blocked)
     joints = joints_of(track.body, track.pose)[0]
     kinks = np.linalg.norm(np.diff(joints, 2, axis=0), axis=2).max(axis=1)
@@ -100,6 +99,40 @@ def test_a_second_ball_while_recovering_is_met_too():
     jump_m, jump_mps = seam_jumps(track_of(simulation))
     assert jump_m < 0.0005
     assert jump_mps < 0.1
+
+
+@pytest.mark.parametrize("later_s", [0.1, 0.6, 0.9])
+def test_a_second_ball_that_is_seen_while_busy_with_the_first_is_met_as_soon_as_that_is_over(later_s):
+    """It is noticed while the first is still awaited, met, or recovered from: kept in mind, not forgotten."""
+    second = AHEAD | {"azimuth_deg": -20.0, "perceived_s": 0.2 + later_s, "ttc_s": 1.2}
+    simulation = run([AHEAD, second], startle=False, duration_s=3.5)
+    until_s = next(row["to_s"] for row in simulation.report()["phases"] if row["name"] == "recover_blend")
+    first, taken_up = (event["tick"] * TICK_S for event in events(simulation, "perceived"))
+    assert first == pytest.approx(0.2, abs=0.02)
+    assert taken_up == pytest.approx(until_s, abs=2 * TICK_S)
+    contacts = events(simulation, "contact")
+    met = [event for event in contacts if event["ball"] != contacts[0]["ball"]]
+    assert met[0]["part"].endswith(("hand", "forearm"))
+    assert phases(simulation)[-1] == "play"
+    jump_m, jump_mps = seam_jumps(track_of(simulation))
+    assert jump_m < 0.0005
+    assert jump_mps < 0.1
+
+
+def test_a_guard_that_is_up_is_not_dropped_for_a_startle():
+    second = AHEAD | {"azimuth_deg": -20.0, "perceived_s": 1.3}
+    simulation = run([AHEAD, second], startle=True, duration_s=2.0)
+    assert [event["startle"] for event in events(simulation, "perceived")] == ["taken", "on guard"]
+    assert phases(simulation).count("startle") == 1
+
+
+def test_a_movement_that_begins_too_late_is_cut_short_not_hurried():
+    simulation = run([AHEAD | {"ttc_s": 0.06}], duration_s=1.0)
+    assert "protect" in phases(simulation)
+    joints = joints_of(track_of(simulation).body, track_of(simulation).pose)[0]
+    protecting = np.isin(track_of(simulation).phase, (Phase.PROTECT,))[1:]
+    speeds = np.linalg.norm(np.diff(joints, axis=0), axis=2)[protecting] / TICK_S
+    assert speeds.max() < 12.0  # m/s, of a hand; at full tilt a throw has twice that
 
 
 def test_a_heavy_blow_knocks_down_and_the_body_comes_to_rest():
