@@ -10,10 +10,11 @@ import os
 import subprocess
 import sys
 import time
+from collections.abc import Iterable
 from typing import Any
 
 from demos.cli import guarded
-from demos.kernels import on_compiling, terminal_line
+from demos.kernels import ROOT, forget_stale, on_compiling, terminal_line
 from engine.core.errors import BraceError
 
 
@@ -56,22 +57,37 @@ def compile_kernels() -> None:
         _compile_later()
 
 
+def compile_what_changed() -> None:
+    """After an update or an edit of the sources, before a window opens: it would stand still meanwhile, in silence."""
+    if forget_stale():
+        compile_kernels()
+
+
 def _compile_later() -> subprocess.Popen:
     """Has what no first picture needs compiled behind it, when nothing else runs; who is quicker compiles it then.
 
     It outlives the command that it began with, and so keeps no stream of it open.
     """
     quiet: dict[str, Any] = dict.fromkeys(("stdin", "stdout", "stderr"), subprocess.DEVNULL)
-    words = [f"kernels-{part}" for part in LATER]
-    command = [sys.executable, "-P", "-m", "demos.set_up", *words]
-    return subprocess.Popen(command, start_new_session=True, preexec_fn=lambda: os.nice(19), **quiet)
+    return subprocess.Popen(
+        _to_compile(LATER), env=_environment(), start_new_session=True, preexec_fn=lambda: os.nice(19), **quiet
+    )
+
+
+def _to_compile(parts: Iterable[str]) -> list[str]:
+    """The command that compiles these."""
+    return [sys.executable, "-P", "-m", "demos.set_up", *(f"kernels-{part}" for part in parts)]
+
+
+def _environment() -> dict[str, str]:
+    """Ours, in which these packages are found from wherever this was called."""
+    return {**os.environ, "PYTHONPATH": str(ROOT)}
 
 
 def _compile_parts() -> int:
     """Has all PARTS compiled at once, and returns how many kernels that were; on a terminal, which one it is now."""
     reading, writing = os.pipe()
-    command = [sys.executable, "-P", "-m", "demos.set_up"]
-    parts = [subprocess.Popen([*command, f"kernels-{part}"], stdout=writing) for part in PARTS]
+    parts = [subprocess.Popen(_to_compile([part]), env=_environment(), stdout=writing) for part in PARTS]
     os.close(writing)
     count = 0
     with open(reading, encoding="utf-8") as names:

@@ -67,10 +67,10 @@ def bench_motion(args: argparse.Namespace) -> None:
     from demos.benchmarks.motion import bench
     from demos.benchmarks.motion_films import write_worst
     from demos.benchmarks.motion_table import figures_of
-    from demos.kernels import forget_stale
+    from demos.kernels import get_kernels_ready
     from demos.running import with_progress
 
-    forget_stale()
+    get_kernels_ready()
     folder = made_folder(args.out) if args.out else None
     found = bench(args.cases or 200, args.seed, lambda rows, total: with_progress(rows, "throwing", total))
     figures = figures_of(found.rows, found.poses)

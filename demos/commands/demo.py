@@ -66,8 +66,8 @@ def _scenario(args: argparse.Namespace):
 
 def _window(args: argparse.Namespace) -> None:
     from demos.filming import placed_for
-    from demos.kernels import forget_stale
     from demos.play import play_of
+    from demos.set_up import compile_what_changed
     from demos.window.layer import PanelLayer
     from demos.window.memory import kept_size, load_memory, memory_path, save_memory
     from engine.render.camera import orbit_camera
@@ -78,7 +78,7 @@ def _window(args: argparse.Namespace) -> None:
     from engine.render.renderer import Renderer
     from engine.render.scene import FloorStyle
 
-    forget_stale()
+    compile_what_changed()
     scenario, folder = _scenario(args)
     shot, quality = placed_for(shot_of(args), scenario), _quality(args.quality)
     play = play_of(scenario, folder, Path.cwd())

@@ -64,10 +64,10 @@ def _print_all(names: list[str], paths: list[Path], scale: float) -> None:
     from demos.figures import draw_figure
     from demos.figures.press import Press
     from demos.filming import studio
-    from demos.kernels import forget_stale
+    from demos.kernels import get_kernels_ready
     from demos.running import with_progress
 
-    forget_stale()
+    get_kernels_ready()
     with studio() as renderer:
         for name, path in with_progress(zip(names, paths, strict=True), "drawing", len(names)):
             press = Press(renderer, scale)

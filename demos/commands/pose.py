@@ -42,13 +42,13 @@ def register(subparsers) -> None:
 
 def run(args: argparse.Namespace) -> None:
     from behaviours.pose_report import pose_case, pose_report
-    from demos.kernels import forget_stale
+    from demos.kernels import get_kernels_ready
 
     _check_output(args.output)
     case, settings = _wanted(args)
     stance = _stance(args.stance)
     clip = _clip(args)
-    forget_stale()
+    get_kernels_ready()
     posed = pose_case(clip, case._replace(worn=_worn(clip.body, stance)), settings)
     report = pose_report(posed, _solve_ms(posed, settings))
     report |= {"stance": stance and stance._asdict(), "boldness": args.boldness}

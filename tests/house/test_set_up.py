@@ -74,6 +74,25 @@ def test_nothing_goes_on_behind_where_nothing_was_to_compile(monkeypatch, in_par
     assert len(begun) == later
 
 
+@pytest.mark.parametrize(("stale", "compiled"), [([], 0), (["engine/maths/vector.py"], 1)])
+def test_what_an_update_changed_is_compiled_before_a_window_opens(monkeypatch, stale, compiled):
+    begun = []
+    monkeypatch.setattr(set_up, "forget_stale", lambda: stale)
+    monkeypatch.setattr(set_up, "compile_kernels", lambda: begun.append(1))
+    set_up.compile_what_changed()
+    assert len(begun) == compiled
+
+
+def test_parts_are_found_from_any_folder(monkeypatch, tmp_path):
+    """Whoever compiles after an update may stand anywhere, and need not have a PYTHONPATH."""
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.delenv("PYTHONPATH", raising=False)
+    done = subprocess.run(
+        set_up._to_compile([]), env=set_up._environment(), capture_output=True, text=True, check=False
+    )
+    assert (done.returncode, done.stderr) == (0, "")
+
+
 def test_figures_are_sculpted_ahead_as_pictures_want_them(monkeypatch, tmp_path):
     from engine.clips.library import find_clip
     from engine.render import mesh_cache
