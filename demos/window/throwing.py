@@ -11,6 +11,7 @@ from behaviours.playing import body_of
 from demos.stage import pelvis_m, shown_pose
 from engine.body.capsules import body_capsules, capsules_at
 from engine.body.kinematics import joints_of
+from engine.core.clock import TICK_RATE_HZ
 from engine.core.journal import Command
 from engine.maths.ballistics import GRAVITY_MPS2
 from engine.maths.shapes import ray_capsule
@@ -26,9 +27,12 @@ def throw_speed_mps(held_s: float) -> float:
 
 
 def thrown(world, eye: np.ndarray, ray: np.ndarray, speed_mps: float) -> Command:
-    """The command that throws a ball from the eye at what the ray meets first."""
+    """The command that throws a ball from the eye at what the ray meets first: to where that will be when it arrives,
+    if its character goes on as now.
+    """
     row, target = under_cursor(world, eye, ray)
     start = eye + HELD_AHEAD_M * ray
+    target = target + flight_s(start, target, speed_mps) * going_mps(world, row)
     return {
         "do": "throw",
         "at": int(np.flatnonzero(world.rows(Character) == row)[0]),
@@ -67,6 +71,17 @@ def under_cursor(world, eye: np.ndarray, ray: np.ndarray) -> tuple[int, np.ndarr
 
 def velocity_to(start: np.ndarray, target: np.ndarray, speed_mps: float) -> np.ndarray:
     """The velocity that takes a ball without drag from start to target in the time that the straight way would take."""
-    way = target - start
-    flight_s = max(float(np.sqrt(np.sum(way * way))) / speed_mps, 1e-3)
-    return way / flight_s - 0.5 * np.array(GRAVITY_MPS2) * flight_s
+    time_s = flight_s(start, target, speed_mps)
+    return (target - start) / time_s - 0.5 * np.array(GRAVITY_MPS2) * time_s
+
+
+def flight_s(start: np.ndarray, target: np.ndarray, speed_mps: float) -> float:
+    """How long the straight way takes."""
+    return max(math.dist(start, target) / speed_mps, 1e-3)
+
+
+def going_mps(world, row: int) -> np.ndarray:
+    """(3,) how fast a character goes along the floor now."""
+    posture = world[Posture]
+    moved_m = posture.root_m[row] - posture.before_root_m[row]
+    return TICK_RATE_HZ * moved_m * (1.0, 1.0, 0.0)

@@ -4,14 +4,15 @@ import numpy as np
 import pytest
 from PIL import Image
 
-from behaviours.components import Flight, Reaction, Threat
+from behaviours.components import Flight, Posture, Reaction, Threat
 from demos.filming import CAMERAS
 from demos.play import Play, play_of
 from demos.running import open_scenario
-from demos.window.throwing import throw_speed_mps, under_cursor, velocity_to
+from demos.window.throwing import throw_speed_mps, thrown, under_cursor, velocity_to
 from engine.body.skeleton import Pose
 from engine.clips.synthetic import sway
 from engine.clips.write_bvh import bvh_text
+from engine.core.clock import TICK_RATE_HZ
 from engine.core.journal_file import load_journal
 from engine.maths.ballistics import GRAVITY_MPS2, fly
 from engine.render.camera import orbit_camera, project
@@ -190,6 +191,36 @@ def test_what_is_under_the_cursor(play):
     row, beside = under_cursor(play.session.world, eye, -np.cross(ray, (0.0, 0.0, 1.0)))
     assert row == 0
     assert np.all(np.isfinite(beside))
+
+
+@pytest.mark.parametrize("going_mps", [(0.0, 0.0), (1.4, 0.0), (-0.5, 3.0)])
+def test_a_throw_meets_who_goes_on(play, going_mps):
+    """In the straight time of flight to where it is aimed, the ball is where the cursor's point has gone to."""
+    world, camera = play.session.world, camera_of(play)
+    posture, drift_m = world[Posture], np.array([*going_mps, 0.0]) / TICK_RATE_HZ
+    posture.before_root_m[0] = posture.root_m[0] - drift_m - (0.0, 0.0, 0.01)  # who hops is not aimed above
+    eye, chest_m = np.array(camera.eye), play.scene().figures[0].positions[2]
+    ray = (chest_m - eye) / np.linalg.norm(chest_m - eye)
+    _, met = under_cursor(world, eye, ray)
+    command = thrown(world, eye, ray, 20.0)
+    start_m = np.array(command["position_m"])
+    goes_s = np.linalg.norm(met - start_m) / 20.0
+    aimed_m = met + goes_s * TICK_RATE_HZ * drift_m
+    arrives_s = np.linalg.norm(aimed_m - start_m) / 20.0
+    at, _ = fly(tuple(start_m), tuple(command["velocity_mps"]), GRAVITY_MPS2, 0.0, arrives_s)
+    assert np.linalg.norm(np.array(at) - aimed_m) < 1e-9
+
+
+def test_a_walker_is_hit_from_the_side(tmp_path, library_clip):
+    """While the ball flies it goes on by more than its own width."""
+    library_clip("walk")
+    play = play_of(*open_scenario("volleyball", ("threat=[]", "character.0.protects=false")), tmp_path, lambda: 0.0)
+    do(play, frames=30)
+    camera = orbit_camera(play.session.centre_m(), *CAMERAS["left"])
+    (cursor,), _ = project(camera, play.scene().figures[0].positions[2], SIZE_PX)
+    play.handle([MouseMove(*cursor, 0, 0), *tap("f")], camera, SIZE_PX)
+    do(play, frames=60)
+    assert "contact" in [event.kind for event in play.session.world.events]
 
 
 def test_a_throw_arrives_where_it_was_aimed():
