@@ -9,7 +9,7 @@ from enum import IntEnum
 
 import numpy as np
 
-from behaviours.overlap import PAIRS
+from engine.body.overlap import PAIRS
 from engine.body.skeleton import JOINT_COUNT
 from engine.core.world import Component, column
 from engine.physics.layout import SHAPES, STATE_SIZE, SUB_STEPS
@@ -84,7 +84,7 @@ class Blend(Component):
     ticks = column()  # how long it lasts; not whole, since slack stretches it
     lands = column(dtype=np.int64)  # up to this tick of protection the first end flies on as the clip does, then lands
     support = column(dtype=np.int64)  # the primary support foot: side 0 or 1, or NOBODY: both ends lie
-    modes = column(2, dtype=np.int64)  # left, right: how the arms go, see `behaviours.arm_ways`,
+    modes = column(2, dtype=np.int64)  # left, right: how the arms go, see `behaviours.blends.arm_ways`,
     bends = column(2, 2, 4)  # and how far their ways are bent, radians
     first_modes = column(2, dtype=np.int64)  # likewise in part one of recovery, from the simulation into this blend
     first_bends = column(2, 2, 4)
@@ -195,13 +195,13 @@ class Residual(Component):
     ankles = column(2, 2, 3)
     ankle_turns = column(2, 2, 3)
     stretch = column(2, 2)  # how much longer either leg was than the source's,
-    deeper_m = column(len(PAIRS))  # and how much deeper arms were in the body, for each of `behaviours.overlap.PAIRS`
+    deeper_m = column(len(PAIRS))  # and how much deeper arms were in the body, for each of `engine.body.overlap.PAIRS`
 
 
 class Flight(Component):
     """A ball: it flies, spins, bounces on the floor and off people."""
 
-    kind = column(dtype=np.int64)  # row of behaviours.threats.KINDS
+    kind = column(dtype=np.int64)  # row of behaviours.perceive.threats.KINDS
     position_m = column(3)
     velocity_mps = column(3)
     spin_radps = column(3)
@@ -221,7 +221,7 @@ class Threat(Component):
     """What a ball means to the character that it comes at."""
 
     at = column(dtype=np.int64)  # handle of the character
-    aim = column(dtype=np.int64)  # row of behaviours.perceived.AIMS
+    aim = column(dtype=np.int64)  # row of behaviours.perceive.perceived.AIMS
     contact = column(dtype=np.int64)  # tick at which it is expected to arrive
     line_m = column(3)  # a point of its line of approach: where its centre is expected to be then
     tangent = column(3)  # unit, of its path there

@@ -4,16 +4,16 @@ from __future__ import annotations
 
 import math
 
-from behaviours.approach import Approach, coming_from, plan_approach
 from behaviours.components import Character, Feet, Flight, Playback, Posture, Reaction, Script, Threat
-from behaviours.perceived import aim_of, target_centre
+from behaviours.perceive.approach import Approach, coming_from, plan_approach
+from behaviours.perceive.perceived import aim_of, target_centre
+from behaviours.perceive.senses import face, facing_dot, first_due
+from behaviours.perceive.threats import KINDS, Make, make_threat
 from behaviours.playing import body_of, heading_of, perception_clip_s
-from behaviours.prepare import aim_point, prepare
-from behaviours.protection import felt, look_ahead, perceive
+from behaviours.protect.prepare import aim_point, prepare
+from behaviours.protect.protection import felt, look_ahead, perceive
 from behaviours.scenario import ThreatSpec
-from behaviours.seams import shown
-from behaviours.senses import face, facing_dot, first_due
-from behaviours.threats import KINDS, Make, make_threat
+from behaviours.settle.seams import shown
 from behaviours.timing import TICK_S, time_to_contact_s, whole_ticks
 from engine.body.kinematics import joints_of
 from engine.core.schedule import Stage, system

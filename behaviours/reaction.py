@@ -4,15 +4,14 @@
                             |          `-> down (knocked off the feet)
                             `-> hold (nothing came) -> recover_return
 
-`begin_*` enters a phase: it sets what the phase's source of poses needs (`behaviours.sources`), plans the feet, and
-keeps what is left of the old motion (`behaviours.seams`). The systems below say when.
+`begin_*` enters a phase: it sets what the phase's source of poses needs (`behaviours.settle.sources`), plans the feet,
+and keeps what is left of the old motion (`behaviours.settle.seams`). The systems below say when.
 """
 
 from __future__ import annotations
 
-from behaviours import feet as foot_plan
-from behaviours import seams
-from behaviours.blending import blend_end, primary_support
+from behaviours.blends.blending import blend_end, primary_support
+from behaviours.blends.held_feet import hold_feet, kept_bent, knees_between, leg_lengths
 from behaviours.components import (
     NOBODY,
     Blend,
@@ -30,19 +29,20 @@ from behaviours.components import (
     Sustained,
     Threat,
 )
-from behaviours.falling import begin_falling
-from behaviours.footwork import land, step_into
-from behaviours.held_feet import hold_feet, kept_bent, knees_between, leg_lengths
-from behaviours.knocked_down import has_fallen, response_is_over
 from behaviours.playing import body_of, capsules_of, clip_pose, clip_time_s, perception_clip_s, planted_in_clip
-from behaviours.protection import flight_ticks, perceived_threat, protect_from
-from behaviours.recovery import begin_recovery, begin_return, resume_clip
+from behaviours.protect.protection import flight_ticks, perceived_threat, protect_from
+from behaviours.protect.startled import lift_out_of_floor, within_reach
+from behaviours.protect.sustained import Case
+from behaviours.recover.recovery import begin_recovery, begin_return, resume_clip
+from behaviours.recover.search import choose_return
+from behaviours.respond.falling import begin_falling
+from behaviours.respond.knocked_down import has_fallen, response_is_over
 from behaviours.rules.startle import startle_pose
-from behaviours.search import choose_return
-from behaviours.settling import settled_pose
-from behaviours.sources import BLENDING, choose_hand_ways, flying, foot_goals, source_pose
-from behaviours.startled import lift_out_of_floor, within_reach
-from behaviours.sustained import Case
+from behaviours.settle import feet as foot_plan
+from behaviours.settle import seams
+from behaviours.settle.footwork import land, step_into
+from behaviours.settle.settling import settled_pose
+from behaviours.settle.sources import BLENDING, choose_hand_ways, flying, foot_goals, source_pose
 from behaviours.timing import TICK_S, time_to_contact_s, whole_ticks
 from engine.body.kinematics import com_of, joints_of
 from engine.body.skeleton import ANKLES, HIPS, KNEES, WAIST, Pose

@@ -15,8 +15,8 @@ from typing import Annotated, Any, Literal
 
 from pydantic import AfterValidator, BaseModel, ConfigDict, Field, ValidationError, field_validator, model_validator
 
+from behaviours.perceive.threats import KINDS
 from behaviours.settings import Settings
-from behaviours.threats import KINDS
 from engine.body.skeleton import JOINTS
 from engine.core.errors import BadInput
 

@@ -27,24 +27,24 @@ from behaviours.components import (
     Struck,
     Sustained,
 )
-from behaviours.flying import clear_away, fly_balls
-from behaviours.getting_up import get_up
-from behaviours.going_on import go_on
 from behaviours.launching import launch_threats, threaten, throw
-from behaviours.library import FindClip, gather_libraries
-from behaviours.observing import Observer
+from behaviours.measure.observing import Observer
+from behaviours.measure.report import report_of
 from behaviours.overriding import override
+from behaviours.perceive.flying import clear_away, fly_balls
+from behaviours.perceive.senses import watch_free_threats
+from behaviours.perceive.threats import make_threat
 from behaviours.placing import placed
 from behaviours.reaction import advance_reactions, notice
-from behaviours.report import report_of
-from behaviours.response import meet_balls, step_bodies
+from behaviours.recover.getting_up import get_up
+from behaviours.recover.going_on import go_on
+from behaviours.recover.library import FindClip, gather_libraries
+from behaviours.recover.search import Library
+from behaviours.respond.response import meet_balls, step_bodies
 from behaviours.scenario import CharacterSpec, Scenario, ThreatSpec, check_threat
-from behaviours.search import Library
-from behaviours.senses import watch_free_threats
 from behaviours.settings import Settings
-from behaviours.settling import settle_poses
+from behaviours.settle.settling import settle_poses
 from behaviours.stance.shape import mix, shape
-from behaviours.threats import make_threat
 from behaviours.timing import TICK_S
 from behaviours.wearing import Worn, worn_by, worn_pose, worn_shape
 from engine.body.capsules import Capsules, body_capsules

@@ -9,7 +9,7 @@ from collections.abc import Iterable, Sequence
 from pathlib import Path
 from typing import Any, TypeVar
 
-from behaviours.library import library_names
+from behaviours.recover.library import library_names
 from behaviours.scenario import CharacterSpec, Scenario, check_scenario, load_scenario, parse_scenario
 from behaviours.simulation import Simulation, apply_command
 from demos.kernels import get_kernels_ready

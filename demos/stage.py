@@ -10,8 +10,8 @@ from collections.abc import Collection
 import numpy as np
 
 from behaviours.components import Character, Feet, Flight, Phase, Posture, Reaction, Sustained
+from behaviours.perceive.threats import KINDS
 from behaviours.playing import body_of, clip_pose, clip_time_s
-from behaviours.threats import KINDS
 from engine.body.kinematics import com_of, joints_of
 from engine.body.skeleton import Body, Pose
 from engine.body.support import polygon_of, sole_points

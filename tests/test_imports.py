@@ -30,6 +30,19 @@ FLOOR_PLAN = {
     "tests": ("engine", "behaviours", "shaders", "demos"),
 }
 
+# stage of the behaviours: the other stages that it may import
+STAGES = {
+    "behaviours.rules": (),
+    "behaviours.stance": (),
+    "behaviours.blends": (),
+    "behaviours.settle": ("blends",),
+    "behaviours.perceive": ("settle",),
+    "behaviours.protect": ("settle", "perceive", "rules"),
+    "behaviours.recover": ("blends", "settle"),
+    "behaviours.respond": ("settle", "recover"),
+    "behaviours.measure": ("blends", "settle"),
+}
+
 # others' packages that only these modules may import
 FENCED = {
     "moderngl": ("engine.render", "tests"),
@@ -105,6 +118,19 @@ def faults_of(source: str, module: str, is_package: bool = False) -> list[str]:
     return faults
 
 
+def strays_of(source: str, module: str, is_package: bool = False) -> list[str]:
+    """Every import by one stage of the behaviours from another that does not come before it, as `line: reason`."""
+    stage = next((stage for stage in STAGES if is_within(module, stage)), None)
+    if stage is None:
+        return []
+    allowed = (stage, *(f"behaviours.{name}" for name in STAGES[stage]))
+    others = [other for other in STAGES if other not in allowed]
+    imports = imports_of(ast.parse(source), module, is_package)
+    return [
+        f"{line}: {stage} may not import {name}" for line, name in imports if any(is_within(name, o) for o in others)
+    ]
+
+
 def our_files() -> list[Path]:
     return sorted(path for top in TOPS for path in (ROOT / top).rglob("*.py"))
 
@@ -124,6 +150,23 @@ def test_every_import_follows_the_floor_plan():
         found = faults_of(path.read_text(encoding="utf-8"), module_of(path), path.name == "__init__.py")
         faults += [f"{path.relative_to(ROOT)}:{fault}" for fault in found]
     assert not faults, "\n".join(faults)
+
+
+def test_the_stages_of_the_behaviours_build_on_each_other_one_way():
+    strays = []
+    for path in our_files():
+        found = strays_of(path.read_text(encoding="utf-8"), module_of(path), path.name == "__init__.py")
+        strays += [f"{path.relative_to(ROOT)}:{stray}" for stray in found]
+    assert not strays, "\n".join(strays)
+    TopologicalSorter({stage: [f"behaviours.{name}" for name in STAGES[stage]] for stage in STAGES}).prepare()
+    folders = {path.parent.name for path in (ROOT / "behaviours").glob("*/__init__.py")}
+    assert {f"behaviours.{name}" for name in folders} == set(STAGES)
+
+
+def test_a_stray_between_stages_is_seen():
+    assert strays_of("from behaviours.protect.task import Task", "behaviours.blends.lying")
+    assert not strays_of("from behaviours.blends import lying", "behaviours.settle.sources")
+    assert not strays_of("from behaviours.protect.task import Task", "behaviours.reaction")
 
 
 def test_the_walk_reaches_every_room():
@@ -151,8 +194,8 @@ def test_no_two_modules_need_each_other():
         ("engine.body.support", "from engine.clips.tracks import Clip", "may not import engine.clips.tracks.Clip"),
         ("engine.render.camera", "from engine.body import limits", "may not import engine.body.limits"),
         ("engine.render.camera", "import behaviours", "engine.render may not import behaviours"),
-        ("behaviours.senses", "from engine import render", "behaviours may not import engine.render"),
-        ("behaviours.senses", "def f():\n    import demos.cli", "behaviours may not import demos.cli"),
+        ("behaviours.perceive.senses", "from engine import render", "behaviours may not import engine.render"),
+        ("behaviours.perceive.senses", "def f():\n    import demos.cli", "behaviours may not import demos.cli"),
         ("demos.cli", "from tests import conftest", "demos may not import tests.conftest"),
         ("demos.cli", "import moderngl", "only engine.render, tests may import moderngl"),
         ("demos.cli", "import importlib\nimportlib.import_module('mujoco')", "only engine.physics, tests"),
@@ -162,7 +205,7 @@ def test_no_two_modules_need_each_other():
             "only demos, engine.render.loop, engine.render.window, tests",
         ),
         ("engine.render.camera", "import time", "tests may import time"),
-        ("behaviours.senses", "import numpy as np\nx = np.random.rand()", "may import numpy.random"),
+        ("behaviours.perceive.senses", "import numpy as np\nx = np.random.rand()", "may import numpy.random"),
         ("engine.stray", "import os", "engine.stray lies in no room"),
     ],
 )

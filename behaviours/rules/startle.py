@@ -8,12 +8,12 @@ import math
 
 import numpy as np
 
-from behaviours.overlap import PAIRS, depths_into
 from behaviours.rules.recoil import raise_clavicle, retract_arm
 from behaviours.settings import Settings
 from engine.body.capsules import Capsules, body_capsules, capsules_at
 from engine.body.kinematics import joints_of
 from engine.body.limits import clamp_keeping
+from engine.body.overlap import PAIRS, depths_into
 from engine.body.skeleton import CLAVICLES, ELBOWS, HEAD, LEFT, NECK, SHOULDERS, Body, Pose
 from engine.maths import quaternion
 from engine.maths.kernel import njit

@@ -11,11 +11,10 @@ import math
 
 import numpy as np
 
-from behaviours.stance import brent
 from behaviours.stance.arms import reach
 from engine.body import limb_ik, limits
 from engine.body.skeleton import ELBOWS, PARENT, SHOULDERS, WRISTS
-from engine.maths import quaternion, vector
+from engine.maths import brent, quaternion, vector
 from engine.maths.inner_kernel import inner_kernel
 from engine.maths.kernel import njit
 

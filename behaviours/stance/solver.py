@@ -16,12 +16,12 @@ from typing import NamedTuple
 
 import numpy as np
 
-from behaviours.stance import balance, brent, torso, wrists
+from behaviours.stance import balance, torso, wrists
 from behaviours.stance.assembly import assemble
 from behaviours.stance.penalty import penalty_of
 from behaviours.stance.yielding import give_way
 from engine.body.skeleton import SHOULDERS
-from engine.maths import vector
+from engine.maths import brent, vector
 from engine.maths.inner_kernel import inner_kernel
 from engine.maths.kernel import njit
 

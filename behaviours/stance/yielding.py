@@ -13,12 +13,12 @@ from typing import NamedTuple
 
 import numpy as np
 
-from behaviours import minimise
 from behaviours.stance import penalty
 from behaviours.stance.assembly import Figure, Plan
 from behaviours.stance.balance import BalanceSearch
 from behaviours.stance.wrists import finish, lacks_at
 from engine.body.skeleton import Body
+from engine.maths import minimise
 from engine.maths.copying import copy_into
 from engine.maths.inner_kernel import inner_kernel
 from engine.maths.kernel import njit

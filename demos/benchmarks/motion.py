@@ -1,8 +1,9 @@
 """`brace bench --motion`: how good the motion is, over seeded threats at real clips. Every figure has a bar to meet.
 
 A case is a whole run: a clip, a moment of it, a threat from anywhere (`motion_cases`). It is measured by
-`behaviours.measures` (`motion_run`); threats to the head are thrown once more at somebody who sees nothing coming, and
-some cases once more in a mirror. What came out is summed up in `motion_table`, and where it arises in `motion_phases`.
+`behaviours.measure.measures` (`motion_run`); threats to the head are thrown once more at somebody who sees nothing
+coming, and some cases once more in a mirror. What came out is summed up in `motion_table`, and where it arises in
+`motion_phases`.
 """
 
 from __future__ import annotations

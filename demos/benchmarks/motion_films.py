@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from behaviours.measures import Worst, greatest
+from behaviours.measure.measures import Worst, greatest
 from behaviours.timing import TICK_S
 from demos.benchmarks.motion_cases import Case, scenario_of
 from demos.benchmarks.motion_figure import Figure

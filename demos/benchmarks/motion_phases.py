@@ -9,7 +9,7 @@ from collections import Counter
 import numpy as np
 
 from behaviours.components import Phase
-from behaviours.measures import Worst
+from behaviours.measure.measures import Worst
 from demos.benchmarks.motion_figure import Figure
 from demos.benchmarks.motion_run import Row
 from demos.benchmarks.motion_table import SNAP_MPS, figures_of

@@ -7,10 +7,10 @@ from typing import Any
 
 import numpy as np
 
-from behaviours import measures
 from behaviours.components import Flight, Phase, Reaction, Sustained
-from behaviours.head_measures import head_acceleration_g
-from behaviours.observing import HandWay, Observer, Track
+from behaviours.measure import measures
+from behaviours.measure.head_measures import head_acceleration_g
+from behaviours.measure.observing import HandWay, Observer, Track
 from behaviours.scenario import CharacterSpec, Scenario
 from behaviours.simulation import Simulation
 from behaviours.timing import TICK_S

@@ -12,16 +12,16 @@ from typing import NamedTuple
 
 import numpy as np
 
-from behaviours.balance_search import solve
-from behaviours.overlap import overlaps_m, pair_name
-from behaviours.pose_report import PoseCase, PosedCase, pose_case
+from behaviours.protect.balance_search import solve
+from behaviours.protect.pose_report import PoseCase, PosedCase, pose_case
+from behaviours.protect.sustained import Case
+from behaviours.protect.task import new_posed
+from behaviours.protect.total_error import FORMS
 from behaviours.settings import Settings
-from behaviours.sustained import Case
-from behaviours.task import new_posed
-from behaviours.total_error import FORMS
 from engine.body.footing import leg_length_m, sole_depth_m
 from engine.body.kinematics import joints_of
 from engine.body.limits import excess_beyond_rad
+from engine.body.overlap import overlaps_m, pair_name
 from engine.body.skeleton import HIPS, JOINTS, Body, Pose
 from engine.clips.clip import Clip
 

@@ -15,10 +15,10 @@ WORSE_SHARE = 0.01  # how much above SciPy's least total error ours may end
 def prepare() -> Benchmark:
     from scipy.optimize import minimize
 
+    from behaviours.protect.solve_pose import solve_bfgs
+    from behaviours.protect.task import new_posed
+    from behaviours.protect.total_error import FORMS, RESIDUALS, residuals_into, total_error
     from behaviours.rules.controls import CONTROL_COUNT
-    from behaviours.solve_pose import solve_bfgs
-    from behaviours.task import new_posed
-    from behaviours.total_error import FORMS, RESIDUALS, residuals_into, total_error
 
     task, reference, start, settings = standing_task()
     form, solver = FORMS.index(settings.objective.form), settings.solver
@@ -50,9 +50,9 @@ def prepare() -> Benchmark:
 
 def standing_task() -> tuple[Any, Any, np.ndarray, Any]:
     """Somebody standing straight, a volleyball at the head from the front left: task, reference, start, settings."""
-    from behaviours.perceived import PerceivedThreat, aim_of
+    from behaviours.perceive.perceived import PerceivedThreat, aim_of
+    from behaviours.protect.sustained import protect
     from behaviours.settings import Settings
-    from behaviours.sustained import protect
     from engine.body.anthropometry import standard_body
     from engine.body.skeleton import JOINT_COUNT, LEFT_ANKLE, LEFT_HIP, LEFT_KNEE, Pose
 

@@ -11,10 +11,10 @@ WORSE_SHARE = 0.02  # how much farther off than the nearest window of all the on
 
 def prepare() -> Benchmark:
     from behaviours.components import SAMPLES
-    from behaviours.motion_index import index_clips
-    from behaviours.search import Window, best_window
+    from behaviours.recover.motion_index import index_clips
+    from behaviours.recover.search import Window, best_window
+    from behaviours.recover.windows import sample_weight
     from behaviours.settings import Settings
-    from behaviours.windows import sample_weight
 
     settings = Settings()
     clips = library_clips()

@@ -7,9 +7,9 @@ from typing import NamedTuple
 
 import numpy as np
 
-from behaviours.pose_report import PoseCase, pose_case
+from behaviours.protect.pose_report import PoseCase, pose_case
+from behaviours.protect.sustained import Case
 from behaviours.settings import Settings
-from behaviours.sustained import Case
 from behaviours.wearing import worn_by
 from engine.body.kinematics import com_of, joints_of
 from engine.body.skeleton import WRISTS

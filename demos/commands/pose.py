@@ -41,7 +41,7 @@ def register(subparsers) -> None:
 
 
 def run(args: argparse.Namespace) -> None:
-    from behaviours.pose_report import pose_case, pose_report
+    from behaviours.protect.pose_report import pose_case, pose_report
     from demos.kernels import get_kernels_ready
 
     _check_output(args.output)
@@ -76,8 +76,8 @@ def _check_output(output: str | None) -> None:
 def _wanted(args: argparse.Namespace):
     """The case and the settings that the arguments ask for; BadInput where they make no sense."""
     from behaviours.overriding import override
-    from behaviours.perceived import AIMS
-    from behaviours.pose_report import PoseCase
+    from behaviours.perceive.perceived import AIMS
+    from behaviours.protect.pose_report import PoseCase
     from behaviours.scenario import check_scenario
     from behaviours.settings import Settings
     from demos.cli import nearest
@@ -151,7 +151,7 @@ def _clip(args: argparse.Namespace):
 
 def _solve_ms(posed, settings) -> float:
     """How long the pose takes to work out, milliseconds: the best of a few, with kernels compiled."""
-    from behaviours.sustained import solve_protection
+    from behaviours.protect.sustained import solve_protection
 
     taken = []
     for _ in range(REPEATS):
@@ -183,7 +183,7 @@ def _draw(posed, output: str) -> None:
     """The sustained pose with the clip's and the rules' as ghosts, the ball about to arrive."""
     import numpy as np
 
-    from behaviours.pose_report import picture_of
+    from behaviours.protect.pose_report import picture_of
     from demos.filming import CAMERAS, studio
     from demos.stage import GHOST_ALPHA
     from engine.body.kinematics import joints_of

@@ -7,13 +7,13 @@ from typing import NamedTuple
 
 import numpy as np
 
-from behaviours.approach import Approach
-from behaviours.perceived import PerceivedThreat
+from behaviours.perceive.approach import Approach
+from behaviours.perceive.perceived import PerceivedThreat
+from behaviours.perceive.threats import Make, make_threat
 from behaviours.placing import placed
-from behaviours.pose_report import PoseCase, pose_case
+from behaviours.protect.pose_report import PoseCase, pose_case
+from behaviours.protect.sustained import Protection
 from behaviours.settings import Settings
-from behaviours.sustained import Protection
-from behaviours.threats import Make, make_threat
 from behaviours.timing import TICK_S
 from behaviours.wearing import Worn
 from engine.body.kinematics import com_of, joints_of

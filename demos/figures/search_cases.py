@@ -7,7 +7,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from behaviours.threats import KINDS
+from behaviours.perceive.threats import KINDS
 from demos.figures.meeting import Meeting, meet
 from demos.figures.press import Press
 from engine.body.kinematics import joints_of

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from behaviours.threats import KINDS
+from behaviours.perceive.threats import KINDS
 from demos.figures.meeting import Meeting, arriving, balance_of, meet, posed
 from demos.figures.press import Press
 from demos.figures.sheet import BODY, SMALL, Sheet, number

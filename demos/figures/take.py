@@ -8,10 +8,10 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from behaviours.components import Feet, Flight, Phase, Posture, Reaction, Sustained
+from behaviours.perceive.threats import KINDS
 from behaviours.playing import body_of, clip_of, clip_pose, clip_time_s
 from behaviours.scenario import check_scenario
 from behaviours.simulation import Simulation
-from behaviours.threats import KINDS
 from behaviours.timing import TICK_S
 from demos.figures.meeting import balance_of, posed
 from demos.figures.press import Press

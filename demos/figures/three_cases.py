@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from behaviours.sustained import Case
+from behaviours.protect.sustained import Case
 from demos.figures.meeting import balance_of, posed
 from demos.figures.plan import draw_plan
 from demos.figures.press import Press

@@ -6,9 +6,9 @@ from typing import NamedTuple
 
 import numpy as np
 
+from behaviours.perceive.threats import make_threat
 from behaviours.scenario import CharacterSpec
 from behaviours.settings import Settings
-from behaviours.threats import make_threat
 from behaviours.timing import ease, time_to_contact_s
 from demos.figures.press import Press
 from demos.figures.sheet import BODY, SMALL, Sheet, number

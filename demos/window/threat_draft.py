@@ -6,8 +6,8 @@ import random
 from dataclasses import asdict, dataclass, fields
 from typing import Any
 
+from behaviours.perceive.threats import KINDS
 from behaviours.scenario import ThreatSpec
-from behaviours.threats import KINDS
 
 
 @dataclass

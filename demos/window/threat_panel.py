@@ -5,11 +5,11 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING
 
-from behaviours.approach import coming_from
+from behaviours.perceive.approach import coming_from
+from behaviours.perceive.senses import facing_dot
+from behaviours.perceive.threats import KINDS, make_threat
 from behaviours.playing import heading_of
 from behaviours.scenario import BODY_TARGETS
-from behaviours.senses import facing_dot
-from behaviours.threats import KINDS, make_threat
 from behaviours.timing import time_to_contact_s
 from engine.body.skeleton import JOINTS
 

@@ -11,11 +11,22 @@ from numba.core.caching import FunctionCache
 
 
 class KernelCache(FunctionCache):
-    """Numba's own, except that processes wait for each other where they add to it.
+    """Numba's own, except that processes wait for each other where they add to it, and that types may move.
 
     Numba numbers the files of a function's versions by an index that it reads and then writes: of two processes that
     compile two versions at once, both may take one number, and one version would later be run for the other.
+
+    The index also names the types of all versions. Where one of them has been moved or renamed since, though the
+    function was not touched, Numba fails to read it; here the function is compiled anew.
     """
+
+    def load_overload(self, sig, target_context):
+        try:
+            return super().load_overload(sig, target_context)
+        except (ImportError, AttributeError):
+            with _alone_in(self.cache_path):
+                self.flush()
+            return None
 
     def save_overload(self, sig, data):
         with _alone_in(self.cache_path):

@@ -6,10 +6,10 @@ import math
 
 import numpy as np
 
-from behaviours.perceived import PerceivedThreat, aim_of
-from behaviours.prepare import aim_point, prepare
+from behaviours.perceive.perceived import PerceivedThreat, aim_of
+from behaviours.protect.prepare import aim_point, prepare
+from behaviours.protect.sustained import Protection, protect
 from behaviours.settings import Settings
-from behaviours.sustained import Protection, protect
 from engine.body.anthropometry import standard_body
 from engine.body.kinematics import joints_of
 from engine.body.skeleton import ANKLES, JOINT_COUNT, Body, Pose

@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from behaviours.held_feet import LEG_SPARE_M, kept_bent, lengths_left
+from behaviours.blends.held_feet import LEG_SPARE_M, kept_bent, lengths_left
 from engine.body.skeleton import ANKLES, KNEES
 from tests.behaviours.people import BODY
 

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from behaviours.components import Blend, Phase, Playback
-from behaviours.measures import foot_slide_max_m, seam_jumps
+from behaviours.measure.measures import foot_slide_max_m, seam_jumps
 from behaviours.timing import TICK_S
 from engine.body.kinematics import joints_of
 from tests.behaviours.runs import AHEAD, events, phases, run, simulation_of, track_of

@@ -7,13 +7,12 @@ from __future__ import annotations
 import os
 import subprocess
 import sys
-from pathlib import Path
 
 import numpy as np
 import pytest
 
 from behaviours.components import Phase, Reaction
-from behaviours.measures import seam_jumps
+from behaviours.measure.measures import seam_jumps
 from behaviours.simulation import apply_command
 from demos.frames import frames_of
 from engine.clips.library import find_clip
@@ -31,8 +30,8 @@ from tests.behaviours.runs import (
     simulation_of,
     track_of,
 )
+from tests.conftest import ROOT
 
-ROOT = Path(__file__).resolve().parents[2]
 FALL = {**HEAVY, "elevation_deg": 10.0, "azimuth_deg": 150.0, "perceived_s": 0.1, "ttc_s": 0.4}
 TICKS = 150
 

@@ -10,7 +10,7 @@ import time
 import numpy as np
 import pytest
 
-from behaviours.measures import Worst
+from behaviours.measure.measures import Worst
 from demos.benchmarks import motion, motion_cases
 from demos.benchmarks.motion_cases import (
     AHEAD_DEG,

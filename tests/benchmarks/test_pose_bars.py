@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 
-from behaviours.pose_report import PoseCase, pose_case
+from behaviours.protect.pose_report import PoseCase, pose_case
 from behaviours.settings import Settings
 from demos.benchmarks.pose_bars import RESTARTS, arm_depth, limit_excess, lines_of, pose_bars, pose_cases
 from engine.body.skeleton import ELBOWS, SHOULDERS, Pose

@@ -2,8 +2,8 @@
 
 import pytest
 
+from behaviours.perceive.threats import KINDS
 from behaviours.scenario import check_scenario
-from behaviours.threats import KINDS
 from demos.cli import main
 
 HEAD = "version = 1\nduration_s = 0.1\n"

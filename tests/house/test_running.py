@@ -5,7 +5,7 @@ from itertools import pairwise
 
 import pytest
 
-from behaviours import library
+from behaviours.recover import library
 from behaviours.scenario import Scenario
 from behaviours.settings import Settings
 from demos.cli import main

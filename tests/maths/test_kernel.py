@@ -114,6 +114,38 @@ def test_both_halves_come_back_from_the_disk(tmp_path):
     ]
 
 
+TOTAL = """
+from engine.maths.kernel import njit
+@njit(cache=True)
+def total(parts):
+    return parts.first + parts.second
+"""
+PARTS = """
+from typing import NamedTuple
+class Parts(NamedTuple):
+    first: float
+    second: float
+"""
+
+
+@pytest.mark.parametrize(("module", "name"), [("moved", "Parts"), ("parts", "Renamed")])
+def test_a_kernel_outlives_the_types_it_was_compiled_for(tmp_path, module, name):
+    """As after a pull that moves a type: the kernel's own file is the same, so what was kept of it looks fresh."""
+
+    def said(module, name):
+        program = f"from {module} import {name} as Parts; from total import total; print(total(Parts(1.0, 2.0)))"
+        words = [sys.executable, "-B", "-c", program]
+        where = {"cwd": tmp_path, "env": {"PYTHONPATH": str(ROOT)}}
+        return subprocess.run(words, **where, capture_output=True, text=True, check=True).stdout
+
+    (tmp_path / "total.py").write_text(TOTAL)
+    (tmp_path / "parts.py").write_text(PARTS)
+    assert said("parts", "Parts") == "3.0\n"
+    (tmp_path / "parts.py").unlink()
+    (tmp_path / f"{module}.py").write_text(PARTS.replace("Parts", name))
+    assert said(module, name) == "3.0\n"
+
+
 def test_only_one_process_at_a_time_adds_to_a_folder_of_kernels(kernel, monkeypatch, tmp_path):
     """Else two that compile two versions of a function may call both by one file name."""
 

@@ -76,3 +76,16 @@ def test_a_ray_finds_the_near_side_or_nothing():
     assert shapes.ray_capsule((5.0, 0.0, 0.5), (-1.0, 0.0, 0.0), a, b, 0.2, 100.0) == pytest.approx(4.8, abs=1e-6)
     assert shapes.ray_capsule((5.0, 0.0, 0.5), (1.0, 0.0, 0.0), a, b, 0.2, 100.0) == math.inf
     assert shapes.ray_capsule((5.0, 0.0, 0.5), (-1.0, 0.0, 0.0), a, b, 0.2, 4.0) == math.inf
+
+
+def test_nearest_places_of_two_segments_against_a_fine_grid():
+    chance, grid = np.random.default_rng(3), np.linspace(0, 1, 201)
+    for _ in range(60):
+        a, b, c, d = chance.normal(size=(4, 3))
+        s, t = shapes.nearest_between(a, b, c, d)
+        found = np.linalg.norm(a + s * (b - a) - c - t * (d - c))
+        p, q = a + grid[:, None] * (b - a), c + grid[:, None] * (d - c)
+        least = np.linalg.norm(p[:, None] - q[None], axis=2).min()
+        assert 0 <= s <= 1
+        assert 0 <= t <= 1
+        assert least - 0.02 < found <= least + 1e-9

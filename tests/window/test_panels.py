@@ -3,10 +3,10 @@
 import pytest
 
 from behaviours.overriding import constants
+from behaviours.perceive.threats import KINDS
 from behaviours.scenario import BODY_TARGETS, Scenario, check_scenario
 from behaviours.settings import Settings
 from behaviours.simulation import flat_settings
-from behaviours.threats import KINDS
 from demos.window.clips_panel import ClipsPanel, Row, matches
 from demos.window.constants import knobs
 from demos.window.help import ACTIONS, GROUPS

@@ -1,0 +1,4 @@
+"""The dynamic response (thesis 4.1.2): the blow, the body under physics, and the fall when it is too hard.
+
+Begin with `response.meet_balls`.
+"""
