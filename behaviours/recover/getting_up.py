@@ -11,8 +11,8 @@ from __future__ import annotations
 import math
 
 from behaviours.components import NOBODY, Blend, Feet, Phase, Reaction, Struck, Sustained
+from behaviours.phases import STATE, enter, keep_continuous
 from behaviours.playing import body_of, clip_pose
-from behaviours.reaction import STATE, enter, keep_continuous, moment_before
 from behaviours.recover.recovery import return_clip_s
 from behaviours.recover.search import Found, best_window, enter_window, say_found, window_since_blow
 from behaviours.recover.windows import joint_shares
@@ -62,16 +62,15 @@ def rise_or_stay(world, row: int, tick: int) -> None:
 def begin_getting_up(world, row: int, tick: int, found: Found) -> None:
     """From lying as fallen to lying as the motion begins; the feet, which carry nothing, go with the pose."""
     settings, b, s = world.assets.settings.search, world[Blend], world[Sustained]
-    old = moment_before(world, row, tick)
-    enter_window(world, row, world.assets.libraries[row], found)
-    begins = clip_pose(world, row, return_clip_s(world, row))
-    b.from_root_m[row], b.from_rotations[row] = shown(world, row)[0]
-    b.to_root_m[row], b.to_rotations[row] = begins
-    b.since[row], b.ticks[row], b.support[row] = tick - 1, settings.get_up_blend_s / TICK_S, NOBODY
-    s.root_m[row], s.rotations[row] = begins
-    for side in range(2):
-        foot_plan.let_go(world[Feet], row, side)
-    choose_hand_ways(world, row)
-    choose_first_ways(world, row, tick)
-    enter(world, row, tick, Phase.RECOVER_BLEND)
-    keep_continuous(world, row, tick, old)
+    with keep_continuous(world, row, tick):
+        enter_window(world, row, world.assets.libraries[row], found)
+        begins = clip_pose(world, row, return_clip_s(world, row))
+        b.from_root_m[row], b.from_rotations[row] = shown(world, row)[0]
+        b.to_root_m[row], b.to_rotations[row] = begins
+        b.since[row], b.ticks[row], b.support[row] = tick - 1, settings.get_up_blend_s / TICK_S, NOBODY
+        s.root_m[row], s.rotations[row] = begins
+        for side in range(2):
+            foot_plan.let_go(world[Feet], row, side)
+        choose_hand_ways(world, row)
+        choose_first_ways(world, row, tick)
+        enter(world, row, tick, Phase.RECOVER_BLEND)

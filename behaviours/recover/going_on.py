@@ -9,8 +9,8 @@ from __future__ import annotations
 import numpy as np
 
 from behaviours.components import Feet, Phase, Playback, Reaction, Struck, Sustained
+from behaviours.phases import STATE, enter, keep_continuous
 from behaviours.playing import body_of, clip_of, clip_time_s
-from behaviours.reaction import STATE, enter, keep_continuous, moment_before
 from behaviours.recover.recovery import begin_return, return_clip_s
 from behaviours.recover.search import Window, best_window, enter_window
 from behaviours.settle import feet as foot_plan
@@ -46,16 +46,15 @@ def take_up_own_clip(world, row: int, tick: int) -> None:
     )
     if found is None:
         return
-    old, now = moment_before(world, row, tick), shown(world, row)[0]
-    s, f, body = world[Sustained], world[Feet], body_of(world, row)
-    s.root_m[row], s.rotations[row] = now
-    for side in range(2):
-        foot_plan.hold(f, row, side, foot_plan.footing_of(body, now, side))
-    enter_window(world, row, library, found)
-    begin_return(world, row, tick)
-    world.emit("went_on", world.entity(row), clip=clip_of(world, row).name, entered_s=return_clip_s(world, row))
-    enter(world, row, tick, Phase.RECOVER_RETURN)
-    keep_continuous(world, row, tick, old)
+    s, f, body, now = world[Sustained], world[Feet], body_of(world, row), shown(world, row)[0]
+    with keep_continuous(world, row, tick):
+        s.root_m[row], s.rotations[row] = now
+        for side in range(2):
+            foot_plan.hold(f, row, side, foot_plan.footing_of(body, now, side))
+        enter_window(world, row, library, found)
+        begin_return(world, row, tick)
+        world.emit("went_on", world.entity(row), clip=clip_of(world, row).name, entered_s=return_clip_s(world, row))
+        enter(world, row, tick, Phase.RECOVER_RETURN)
 
 
 def shown_window(world, row: int) -> Window:

@@ -26,8 +26,8 @@ from behaviours.components import (
     Sustained,
     Threat,
 )
+from behaviours.phases import enter
 from behaviours.playing import body_of, perception_clip_s
-from behaviours.reaction import enter
 from behaviours.recover.search import begin_remembering, remember
 from behaviours.respond.arriving import arriving, begin_arriving
 from behaviours.respond.falling import held_pose
