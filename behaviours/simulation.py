@@ -40,7 +40,8 @@ from behaviours.recover.getting_up import get_up
 from behaviours.recover.going_on import go_on
 from behaviours.recover.library import FindClip, gather_libraries
 from behaviours.recover.search import Library
-from behaviours.respond.response import meet_balls, step_bodies
+from behaviours.respond.contact import meet_balls
+from behaviours.respond.response import step_bodies
 from behaviours.scenario import CharacterSpec, Scenario, ThreatSpec, check_threat
 from behaviours.settings import Settings
 from behaviours.settle.settling import settle_poses

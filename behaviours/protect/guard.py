@@ -79,29 +79,9 @@ def guard_goal(side, reach_control, swivel_control, build, threat, choices, rule
 
     World; the elbow's way is a unit vector at right angles to the line from shoulder to wrist.
     """
-    b, w, p = rules.block, rules.wrap, rules.pelvis
+    b, w = rules.block, rules.wrap
     trunk = quaternion.at(orientations, side - side + BACK)
-    head_reach = block.reach_m(reach_control, b.reach_far_m, b.reach_near_m, build.arm_m[side], b.arm_share)
-    pelvis_reach = block.reach_m(reach_control, p.reach_far_m, p.reach_near_m, build.arm_m[side], b.arm_share)
-    palm = block.palm_target(
-        side,
-        vector.at(positions, SHOULDERS[side]),
-        threat.head_weight * head_reach + threat.pelvis_weight * pelvis_reach,
-        target_centre(threat.target_joint, threat.target_offset_m, positions, orientations),
-        threat.line_point_m,
-        threat.tangent,
-        choices.across,
-        quaternion.rotate(trunk, (1.0, 0.0, 0.0)),
-        b.clearance_m + threat.excess_radius_m,
-        b.offset_m,
-        b.soften_m,
-    )
-    arm = vector.unit(vector.subtract(palm, vector.at(positions, SHOULDERS[side])), choices.fingers)
-    turn = block.fingers_from_up(arm, choices.fingers, b)
-    palm = vector.along(palm, choices.across, side_sign(side) * b.fingers_apart_m * math.sin(turn))
-    fingers = block.fingers_turned(side, choices.fingers, choices.across, turn)
-    hand = block.hand_facing(side, vector.scale(threat.tangent, -1.0), fingers)
-    swivel = block.swivel_rad(swivel_control, b.swivel_small_rad, b.swivel_large_rad)
+    palm, hand = _blocking(side, reach_control, build, threat, choices, rules, trunk, positions, orientations)
     if choices.wrap > 0.0:
         head, at = quaternion.at(orientations, side - side + HEAD), vector.at(positions, side - side + HEAD)
         centre = vector.add(at, quaternion.rotate(head, build.head_centre_m))
@@ -114,11 +94,39 @@ def guard_goal(side, reach_control, swivel_control, build, threat, choices, rule
     girdle, root = quaternion.at(orientations, CLAVICLES[side]), vector.at(positions, SHOULDERS[side])
     wrist = vector.subtract(palm, quaternion.rotate(hand, build.palm_m[side]))
     n = vector.unit(vector.subtract(wrist, root), (1.0, 0.0, 0.0))
+    swivel = block.swivel_rad(swivel_control, b.swivel_small_rad, b.swivel_large_rad)
     elbow_way = turned_about(n, across_arm(n, quaternion.rotate(girdle, (0.0, 0.0, -1.0))), side_sign(side) * swivel)
     if choices.wrap > 0.0:
         around = across_arm(n, quaternion.rotate(trunk, wrap.elbow_direction(side, w)))
         elbow_way = across_arm(n, vector.mix(elbow_way, around, choices.wrap))
     return palm, hand, elbow_way
+
+
+@inner_kernel
+def _blocking(side, reach_control, build, threat, choices, rules, trunk, positions, orientations):
+    """Where block wants one palm, and how the hand is turned: facing the threat, fingers as the arm lets them."""
+    b, p = rules.block, rules.pelvis
+    shoulder = vector.at(positions, SHOULDERS[side])
+    head_reach = block.reach_m(reach_control, b.reach_far_m, b.reach_near_m, build.arm_m[side], b.arm_share)
+    pelvis_reach = block.reach_m(reach_control, p.reach_far_m, p.reach_near_m, build.arm_m[side], b.arm_share)
+    palm = block.palm_target(
+        side,
+        shoulder,
+        threat.head_weight * head_reach + threat.pelvis_weight * pelvis_reach,
+        target_centre(threat.target_joint, threat.target_offset_m, positions, orientations),
+        threat.line_point_m,
+        threat.tangent,
+        choices.across,
+        quaternion.rotate(trunk, (1.0, 0.0, 0.0)),
+        b.clearance_m + threat.excess_radius_m,
+        b.offset_m,
+        b.soften_m,
+    )
+    arm = vector.unit(vector.subtract(palm, shoulder), choices.fingers)
+    turn = block.fingers_from_up(arm, choices.fingers, b)
+    palm = vector.along(palm, choices.across, side_sign(side) * b.fingers_apart_m * math.sin(turn))
+    fingers = block.fingers_turned(side, choices.fingers, choices.across, turn)
+    return palm, block.hand_facing(side, vector.scale(threat.tangent, -1.0), fingers)
 
 
 @njit(cache=True)

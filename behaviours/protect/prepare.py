@@ -11,7 +11,7 @@ from behaviours.protect import plant
 from behaviours.protect.apply_rules import hang_leg, place_trunk
 from behaviours.protect.look_ahead import PelvisWay, go_ahead
 from behaviours.protect.mirroring import mirror_pose, mirror_task, mirror_threat
-from behaviours.protect.task import Choices, Posed, Rules, Start, Task, bones_of, new_posed
+from behaviours.protect.task import Choices, FeetPlan, Posed, Rules, Start, Task, bones_of, new_posed
 from behaviours.rules.controls import LEAN, TURN, controls_from_threat
 from behaviours.rules.turn import TURN_RIGHT, turn_side, wanted_turn
 from behaviours.rules.wrap import wrap_share
@@ -84,12 +84,10 @@ def _prepare(
     previous_turn_side: float,
     landing: bool,
 ) -> Task:
-    now_positions, now_orientations = joints_of(body, pose_now)
-    ahead_positions, ahead_orientations = joints_of(body, pose_ahead)
-    feet = plant.stand_where_planted(
-        planted, *((ahead_positions, ahead_orientations, pose_ahead.rotations) if landing
-                   else (now_positions, now_orientations, pose_now.rotations))
-    )  # fmt: skip
+    """The same for a threat that turns the character right."""
+    stands_in = pose_ahead if landing else pose_now
+    positions, orientations = joints_of(body, stands_in)
+    feet = plant.stand_where_planted(planted, positions, orientations, stands_in.rotations)
     legs_ahead = [landing or not stands for stands in feet.held]
     start = start_pose(body, pose_now, pose_ahead, legs_ahead)
     task = Task(*bones_of(body), start, feet, threat, _no_choices(), rules_of(settings))
@@ -97,31 +95,32 @@ def _prepare(
 
     # the pelvis goes as far ahead as the planted legs allow, then the foot in the air is set down
     controls = controls_from_threat(threat.speed_norm, threat.size_norm)
-    posed = new_posed()
-    leg_share = settings.balance.leg_share
-    standing_in = pose_ahead if landing else pose_now
-    way = PelvisWay(
-        _floats(standing_in.root_m),
-        _floats(standing_in.rotations[PELVIS]),
-        _floats(pose_ahead.root_m),
-        _floats(pose_ahead.rotations[PELVIS]),
-        (ahead_orientations if landing else now_orientations)[list(HIPS)],
-    )
-    go_ahead(task, controls, way, leg_share, settings.balance.brace_m, posed)
+    balance, posed = settings.balance, new_posed()
+    way = PelvisWay(*_pelvis_of(stands_in), *_pelvis_of(pose_ahead), orientations[list(HIPS)])
+    go_ahead(task, controls, way, balance.leg_share, balance.brace_m, posed)
     place_hips(task, controls, posed)
     if feet.held.any():
-        balance = settings.balance
-        lower_m = plant.lowering_m(body, feet, posed.positions[list(HIPS)], leg_share, balance.lower_for_foot_m)
-        task.start.root_m[2] -= lower_m
-        place_hips(task, controls, posed)
-        feet = plant.set_down(body, feet, posed.positions[list(HIPS)], ahead_positions, ahead_orientations, leg_share)
-    task = task._replace(feet=feet._replace(step_m=plant.steps_m(feet, now_positions)))
+        feet = _set_down(body, task, controls, joints_of(body, pose_ahead), posed, settings)
+    feet = feet._replace(step_m=plant.steps_m(feet, joints_of(body, pose_now)[0]))
+    task = task._replace(feet=feet)
     return task._replace(choices=choose_guard(task, posed))
 
 
-def _floats(row) -> Any:
-    """A row of numbers as a tuple, for kernels."""
-    return tuple(float(v) for v in row)
+def _set_down(
+    body: Body, task: Task, controls, ahead: tuple[np.ndarray, np.ndarray], posed: Posed, settings: Settings
+) -> FeetPlan:
+    """The feet with one that is in the air set down, the start pose's pelvis lowered for it. `ahead`: see joints_of."""
+    balance, hips = settings.balance, list(HIPS)
+    task.start.root_m[2] -= plant.lowering_m(
+        body, task.feet, posed.positions[hips], balance.leg_share, balance.lower_for_foot_m
+    )
+    place_hips(task, controls, posed)
+    return plant.set_down(body, task.feet, posed.positions[hips], *ahead, balance.leg_share)
+
+
+def _pelvis_of(pose: Pose) -> tuple[Any, Any]:
+    """Place and orientation of the pelvis, as tuples for kernels."""
+    return tuple(float(v) for v in pose.root_m), tuple(float(v) for v in pose.rotations[PELVIS])
 
 
 def start_pose(body: Body, pose_now: Pose, pose_ahead: Pose, legs_ahead) -> Start:

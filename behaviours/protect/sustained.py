@@ -106,39 +106,67 @@ def solve_protection(body: Body, task: Task, settings: Settings) -> Protection:
 
 
 def _solve_protection(body: Body, task: Task, settings: Settings) -> Protection:
-    posed = new_posed()
+    """The same for a task that turns right, or not at all."""
+    posed, form = new_posed(), FORMS.index(settings.objective.form)
     controls = controls_allowed(task, posed, settings)
     rules_shift = pose_exactly(task, np.zeros(3), controls, posed, settings.balance.foot_tolerance_m)
     # the rules pose is the start: what it took to plant its feet exactly belongs to it
     task = task._replace(start=task.start._replace(root_m=task.start.root_m + rules_shift))
-    rules, com_rules = _pose_of(posed), np.array(centre_of_mass(task.bones, posed.positions, posed.orientations))
-    support_rules = polygon_of(body, posed.positions, posed.orientations, task.feet.held)
+    rules = _stood(body, task, posed)
     plain = new_posed()  # as the search sees it: arms as the rules want them
     apply_rules(task, np.zeros(3), controls, EXACT, plain)
-    reference = refer_to(task, plain, com_rules, controls, settings)
-
+    reference = refer_to(task, plain, rules.com_m, controls, settings)
+    reported = reference._replace(palms=posed.palms.copy())  # errors are told of the poses that are shown
     start = np.concatenate([np.zeros(3), controls])
-    residuals, form = np.empty(RESIDUALS), FORMS.index(settings.objective.form)
-    shown = reference._replace(palms=posed.palms.copy())  # what is reported: of the poses that are shown
-    measure_into(task, shown, start, controls, posed, residuals)
-    errors_initial = term_errors(residuals) | {"total": float(total_error(residuals, reference, form))}
-    if not task.feet.held.any():
-        return Protection(
-            rules, rules, controls, controls, com_rules, com_rules, np.array(reference.com_wanted_m), support_rules,
-            Case.AIRBORNE, errors_initial, errors_initial, task.choices, task.feet,
-            SolverReport(settings.solver.method, 0, 0, 0, "not needed", 0), task, reference,
-        )  # fmt: skip
+    errors_initial = _errors(task, reported, form, start, controls, posed)
+    if task.feet.held.any():
+        final, report = _search(task, reference, form, start, posed, settings)
+        controls_end, sustained = np.clip(final[3:], 0.0, 1.0), _stood(body, task, posed)
+        errors = _errors(task, reported, form, final, controls_end, posed)
+        case = case_of(inside(rules.support_m, rules.com_m[:2]), inside(sustained.support_m, sustained.com_m[:2]))
+    else:
+        controls_end, sustained, errors, case = controls, rules, errors_initial, Case.AIRBORNE
+        report = SolverReport(settings.solver.method, 0, 0, 0, "not needed", 0)
+    return Protection(
+        rules.pose, sustained.pose, controls, controls_end, rules.com_m, sustained.com_m,
+        np.array(reference.com_wanted_m), sustained.support_m, case, errors_initial, errors, task.choices, task.feet,
+        report, task, reference,
+    )  # fmt: skip
+
+
+class _Stood(NamedTuple):
+    """A pose as it stands. World metres."""
+
+    pose: Pose
+    com_m: np.ndarray  # (3,)
+    support_m: np.ndarray  # (m, 2) support polygon
+
+
+def _stood(body: Body, task: Task, posed: Posed) -> _Stood:
+    """The pose that kernels have just made."""
+    return _Stood(
+        Pose(posed.positions[PELVIS].copy(), posed.rotations.copy()),
+        np.array(centre_of_mass(task.bones, posed.positions, posed.orientations)),
+        polygon_of(body, posed.positions, posed.orientations, task.feet.held),
+    )
+
+
+def _errors(task: Task, reference: Reference, form: int, variables, controls, posed: Posed) -> dict[str, float]:
+    """Each term of the total error, and the total, of a pose that is there."""
+    residuals = np.empty(RESIDUALS)
+    measure_into(task, reference, variables, controls, posed, residuals)
+    return term_errors(residuals) | {"total": float(total_error(residuals, reference, form))}
+
+
+def _search(
+    task: Task, reference: Reference, form: int, start: np.ndarray, posed: Posed, settings: Settings
+) -> tuple[np.ndarray, SolverReport]:
+    """The variables (10,) of the balanced, braced pose, which is left in `posed` as it is shown, and how it went."""
     solution, polishing = solve(task, reference, form, start, posed, settings)
     solution, weighed = weigh_arms(task, reference, solution, form, posed, settings)
     solution = keep_limits(task, weighed, solution, posed, settings)
-    shift, controls_end = solution.variables[:3].copy(), np.clip(solution.variables[3:], 0.0, 1.0)
-    shift += pose_exactly(task, shift, controls_end, posed, settings.balance.foot_tolerance_m)
-    sustained, com = _pose_of(posed), np.array(centre_of_mass(task.bones, posed.positions, posed.orientations))
-    support = polygon_of(body, posed.positions, posed.orientations, task.feet.held)
-    final = np.concatenate([shift, solution.variables[3:]])
-    measure_into(task, shown, final, controls_end, posed, residuals)
-    errors = term_errors(residuals) | {"total": float(total_error(residuals, reference, form))}
-    case = case_of(inside(support_rules, com_rules[:2]), inside(support, com[:2]))
+    shift, controls = solution.variables[:3].copy(), np.clip(solution.variables[3:], 0.0, 1.0)
+    shift += pose_exactly(task, shift, controls, posed, settings.balance.foot_tolerance_m)
     report = SolverReport(
         settings.solver.method,
         int(solution.iterations),
@@ -147,10 +175,7 @@ def _solve_protection(body: Body, task: Task, settings: Settings) -> Protection:
         minimise.STOPS[solution.stop],
         polishing,
     )
-    return Protection(
-        rules, sustained, controls, controls_end, com_rules, com, np.array(reference.com_wanted_m), support,
-        case, errors_initial, errors, task.choices, task.feet, report, task, reference,
-    )  # fmt: skip
+    return np.concatenate([shift, solution.variables[3:]]), report
 
 
 def controls_allowed(task: Task, posed: Posed, settings: Settings) -> np.ndarray:
@@ -200,10 +225,6 @@ def case_of(inside_before: bool, inside_after: bool) -> Case:
     if inside_after:
         return Case.BALANCED if inside_before else Case.MENDED
     return Case.BRACED_OUT if inside_before else Case.UNRECOVERED
-
-
-def _pose_of(posed: Posed) -> Pose:
-    return Pose(posed.positions[PELVIS].copy(), posed.rotations.copy())
 
 
 def mirror_protection(found: Protection) -> Protection:

@@ -75,24 +75,16 @@ def step(
     count = sub_steps_in(dt_s)
     h = dt_s / count
     m.opt.timestep = h
-    body, target_rotations = model.body, np.ascontiguousarray(target.rotations, dtype=float)
+    target_rotations = np.ascontiguousarray(target.rotations, dtype=float)
     came_from = target_rotations if target_before is None else np.ascontiguousarray(target_before.rotations, float)
-    goal, spins = np.empty((JOINT_COUNT, 4)), np.empty((JOINT_COUNT, 3))
+    spins = np.empty((JOINT_COUNT, 3))
     tracking.spins_between(came_from, target_rotations, dt_s, spins)
+    servos = _Servos(came_from, spins, float(strength), float(damping), carries)
     part_stops.keep_own(model, target_rotations)
     m.geom_margin[1:] = 0.0 if sunk_m is None else -sunk_m
-    torque, armature, carried_nm = np.zeros(m.nv), np.zeros(m.nv), strength * model.strength_nm
     momentum = _momentum(model)
     for k in range(count):
-        tracking.turned(came_from, spins, (k + 1) * h, goal)
-        tracking.drive(
-            d.qpos, d.qvel, goal, spins, body.limit_low_rad, body.limit_high_rad,
-            model.inertia_kgm2, model.strength_nm, float(strength), float(damping), h, torque, armature,
-        )  # fmt: skip
-        if carries > 0.0:
-            weight.carry(PARENT, body, d.qpos, -m.opt.gravity[2], carries, carried_nm, torque)
-        m.dof_armature[:] = armature
-        d.qfrc_applied[:] = torque
+        _pull(model, servos, (k + 1) * h, h)
         for push in pushes:
             _apply(model, push, push.since_s + k * h, h)
         qpos_before = d.qpos.copy()
@@ -100,9 +92,38 @@ def step(
         stops.hold(model, qpos_before, target_rotations, max(0.0, 1.0 - strength), h)
         momentum = _balance(model, momentum, h)
         if trace is not None:
+            body = model.body
             trace[k] = tracking.part_velocities(PARENT, body.offset_m, body.part_com_m, d.qpos, d.qvel)
     d.qfrc_applied[:] = 0.0
     return _state(model)
+
+
+class _Servos(NamedTuple):
+    """What pulls the joints in one step, see `step`."""
+
+    came_from: np.ndarray  # (J, 4) the target's rotations when the step begins
+    spins: np.ndarray  # (J, 3) rad/s: how they turn
+    strength: float
+    damping: float
+    carries: float
+
+
+def _pull(model: RagdollModel, servos: _Servos, at_s: float, h: float) -> None:
+    """Sets the servos' torques for a sub-step of h that ends at_s after the step began, and the inertia that lets them
+    be stiff.
+    """
+    m, d, body = model.mujoco_model, model.data, model.body
+    goal, torque, armature = np.empty((JOINT_COUNT, 4)), np.zeros(m.nv), np.zeros(m.nv)
+    tracking.turned(servos.came_from, servos.spins, at_s, goal)
+    tracking.drive(
+        d.qpos, d.qvel, goal, servos.spins, body.limit_low_rad, body.limit_high_rad,
+        model.inertia_kgm2, model.strength_nm, servos.strength, servos.damping, h, torque, armature,
+    )  # fmt: skip
+    if servos.carries > 0.0:
+        most_nm = servos.strength * model.strength_nm
+        weight.carry(PARENT, body, d.qpos, -m.opt.gravity[2], servos.carries, most_nm, torque)
+    m.dof_armature[:] = armature
+    d.qfrc_applied[:] = torque
 
 
 def sub_steps_in(dt_s: float) -> int:
