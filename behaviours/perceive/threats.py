@@ -1,8 +1,8 @@
 """Threats (thesis 3.1): what a kind of thing is, and how a ball flies.
 
-To add a kind, add a row to `KINDS`. A *scripted* threat is given by its state at contact and flown backwards to where
-it is perceived; a *free* one is given at its release and may miss. Both fly by `engine.maths.ballistics`, which is also
-what the character predicts with.
+To add a kind, copy a neighbour in `KINDS`: scenarios, commands and the window's panel then have it. A *scripted* threat
+is given by its state at contact and flown backwards to where it is perceived; a *free* one is given at its release and
+may miss. Both fly by `engine.maths.ballistics`, which is also what the character predicts with.
 """
 
 from __future__ import annotations
@@ -28,8 +28,26 @@ class Kind(NamedTuple):
 # Volleyball: FIVB official size and weight; spike speeds 22.8 - 29.7 m/s (Forthomme et al. 2005, in the thesis);
 # C_d 0.2 past the drag crisis (Asai et al. 2010).
 KINDS = {
-    "volleyball": Kind(0.105, 0.27, (0.06, 0.20), (0.1, 2.0), (22.8, 29.7), drag_per_m(0.105, 0.27, 0.2), 0.75, 0.6),
-    "custom": Kind(0.105, 0.27, (0.05, 0.30), (0.05, 10.0), (22.8, 29.7), drag_per_m(0.105, 0.27, 0.45), 0.5, 0.6),
+    "volleyball": Kind(
+        radius_m=0.105,
+        mass_kg=0.27,
+        radius_range_m=(0.06, 0.20),
+        mass_range_kg=(0.1, 2.0),
+        speed_range_mps=(22.8, 29.7),
+        drag_per_m=drag_per_m(radius_m=0.105, mass_kg=0.27, coefficient=0.2),
+        restitution=0.75,
+        friction=0.6,
+    ),
+    "custom": Kind(
+        radius_m=0.105,
+        mass_kg=0.27,
+        radius_range_m=(0.05, 0.30),
+        mass_range_kg=(0.05, 10.0),
+        speed_range_mps=(22.8, 29.7),
+        drag_per_m=drag_per_m(radius_m=0.105, mass_kg=0.27, coefficient=0.45),
+        restitution=0.5,
+        friction=0.6,
+    ),
 }
 
 

@@ -57,7 +57,7 @@ class PosedCase(NamedTuple):
     protection: Protection
 
 
-def pose_case(clip: Clip, case: PoseCase, settings: Settings, previous_turn_side: float = 0.0) -> PosedCase:
+def pose_case(clip: Clip, case: PoseCase, settings: Settings) -> PosedCase:
     """The protective pose of a clip's subject at a time against a scripted threat. ValueError for an unknown target."""
     make = make_threat(case.kind, case.speed_mps, case.size, size_means=case.size_means)
     now = _sampled(clip, case.at_s, case.worn)
@@ -69,11 +69,11 @@ def pose_case(clip: Clip, case: PoseCase, settings: Settings, previous_turn_side
     for _ in range(AIM_PASSES):
         way = _approach(case, make, heading, aim, ttc_s, settings)
         threat = _perceived(clip.body, now, case, make, way, aim, settings)
-        task = prepare(clip.body, now, ahead, planted, threat, settings, previous_turn_side, landing)
+        task = prepare(clip.body, now, ahead, planted, threat, settings, landing=landing)
         aim = aim_point(task)
     way = _approach(case, make, heading, aim, ttc_s, settings)
     threat = _perceived(clip.body, now, case, make, way, aim, settings)
-    found = protect(clip.body, now, ahead, planted, threat, settings, previous_turn_side, landing)
+    found = protect(clip.body, now, ahead, planted, threat, settings, landing=landing)
     return PosedCase(clip.body, now, ahead, threat, way, found)
 
 

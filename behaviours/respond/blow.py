@@ -31,37 +31,37 @@ def deal(world, row: int, ball: int, model, thrown: impact.Ball, impulse: impact
     world[Flight].held[ball] = True
 
 
+def under_way(world, row: int) -> impact.Impulse:
+    """The blow that is being dealt to a character, all of it."""
+    b = world[Blow]
+    return impact.Impulse(
+        -b.impulse_Ns[row], b.turning_Nms[row].copy(), int(b.joint[row]), b.place_m[row].copy(), 0.0,
+        b.normal[row].copy(),
+    )  # fmt: skip
+
+
 def deal_blow(world, row: int) -> tuple[ragdoll.Push, ...]:
     """The body's side of the blow under way, and this tick's share of it to the ball."""
     b = world[Blow]
     b.elapsed_s[row] += TICK_S
     if b.ball[row] == NOBODY:
         return ()
-    push = ragdoll.Push(
-        int(b.joint[row]),
-        b.place_m[row].copy(),
-        b.impulse_Ns[row].copy(),
-        float(b.elapsed_s[row] - TICK_S),
-        float(b.lasts_s[row]),
-    )
+    blow = under_way(world, row)
+    push = impact.push_of(blow, float(b.elapsed_s[row] - TICK_S), float(b.lasts_s[row]))
     if world.alive(int(b.ball[row])):
-        share = ragdoll.share_in(push, push.since_s, push.since_s + TICK_S)
-        f, ball = world[Flight], world.row(int(b.ball[row]))
-        f.velocity_mps[ball] -= share * push.impulse_Ns / f.mass_kg[ball]
-        f.spin_radps[ball] += share * b.turning_Nms[row] / (impact.HOLLOW * f.mass_kg[ball] * f.radius_m[ball] ** 2)
+        ball, share = world.row(int(b.ball[row])), ragdoll.share_in(push, push.since_s, push.since_s + TICK_S)
+        turn_ball(world, ball, impact.ball_after(ball_at(world, ball, world[Flight].position_m[ball]), blow, share))
     return (push,)
 
 
 def finish_blow(world, row: int, ball: int, model) -> None:
     """What is left of the blow under way is dealt at once: the ball meets another part before it has left the first."""
-    b = world[Blow]
-    push = ragdoll.Push(int(b.joint[row]), b.place_m[row], b.impulse_Ns[row], 0.0, float(b.lasts_s[row]))
+    b, blow = world[Blow], under_way(world, row)
+    push = impact.push_of(blow, 0.0, float(b.lasts_s[row]))
     left = ragdoll.share_in(push, float(b.elapsed_s[row]), push.duration_s)
-    rest = impact.Impulse(
-        -left * push.impulse_Ns, left * b.turning_Nms[row], push.joint, push.place_m, 0.0, b.normal[row]
-    )
+    rest = blow._replace(impulse_Ns=left * blow.impulse_Ns, turning_Nms=left * blow.turning_Nms)
     world[Ragdoll].state[row] = impact.body_after(model, world[Ragdoll].state[row], rest)
-    turn_ball(world, ball, impact.ball_after(ball_at(world, ball, (0.0, 0.0, 0.0), b.normal[row]), rest))
+    turn_ball(world, ball, impact.ball_after(ball_at(world, ball, world[Flight].position_m[ball]), rest))
     b.ball[row] = NOBODY
     world[Flight].held[ball] = False
 
@@ -82,16 +82,13 @@ def carry_ball(world, row: int, model) -> None:
         b.ball[row] = NOBODY
 
 
-def ball_at(world, ball: int, touch_m, normal) -> impact.Ball:
-    """The ball touching there."""
+def ball_at(world, ball: int, centre_m) -> impact.Ball:
+    """The ball, its centre there."""
     f = world[Flight]
     return impact.Ball(
-        float(f.mass_kg[ball]),
-        float(f.radius_m[ball]),
-        vector.along(touch_m, normal, float(f.radius_m[ball])),
-        tuple(f.velocity_mps[ball]),
+        float(f.mass_kg[ball]), float(f.radius_m[ball]), tuple(centre_m), tuple(f.velocity_mps[ball]),
         tuple(f.spin_radps[ball]),
-    )
+    )  # fmt: skip
 
 
 def keep_out(world, ball: int, touch_m, normal) -> None:

@@ -92,7 +92,7 @@ def strike(world, row: int, ball: int, hit: impact.Hit, tick: int) -> None:
     simulated = world[Ragdoll].active[row] and world[Reaction].phase[row] in (Phase.RESPOND, Phase.DOWN)
     state = world[Ragdoll].state[row] if simulated else moving_state(world, row, tick, model)
     touch_m = place_in_world(world, row, hit)
-    thrown = ball_at(world, ball, touch_m, hit.normal)
+    thrown = ball_at(world, ball, vector.along(touch_m, hit.normal, float(world[Flight].radius_m[ball])))
     material = impact.Material(response.restitution, response.friction)
     impulse = impact.exchange(model, state, thrown, hit, material)
     if impulse is None:

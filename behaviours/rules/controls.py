@@ -11,13 +11,6 @@ CONTROL_COUNT = len(CONTROLS)
 LEAN, TURN, RECOIL, REACH_LEFT, REACH_RIGHT, SWIVEL_LEFT, SWIVEL_RIGHT = range(CONTROL_COUNT)
 
 
-def normalise(value: float, low: float, high: float) -> float:
-    """Where a threat property lies in its range, clamped to [0, 1]. An empty range counts as reached from `high` on."""
-    if high <= low:
-        return 1.0 if value >= high else 0.0
-    return min(1.0, max(0.0, (value - low) / (high - low)))
-
-
 def controls_from_threat(speed_norm: float, size_norm: float) -> np.ndarray:
     """The seven controls in [0, 1], in the order of CONTROLS: lean from the speed, all others from the size."""
     controls = np.full(CONTROL_COUNT, min(1.0, max(0.0, float(size_norm))))

@@ -15,7 +15,6 @@ import numpy as np
 from behaviours.stance import footprints
 from behaviours.stance.shape import Shape, changed, shape
 from behaviours.stance.solve import solve_shape
-from engine.body.limits import clamp_pose
 from engine.body.skeleton import BACK, CLAVICLES, ELBOWS, HEAD, KNEES, NECK, PELVIS, SHOULDERS, WAIST, Body
 from engine.maths import rotations
 
@@ -56,13 +55,3 @@ def offsets_of(body: Body, coloured: Shape) -> StanceOffsets:
         com_shift_m=stance.plan.balance_m - neutral.plan.balance_m,
         knee_rad=2.0 * (np.arctan2(q[:, 2], q[:, 0]) - np.arctan2(q0[:, 2], q0[:, 0])),
     )
-
-
-def put_under(body: Body, clip_rotations: np.ndarray, turns: np.ndarray, weight: float = 1.0) -> np.ndarray:
-    """A clip's local rotations (J, 4) with a share of a stance's turns (J, 4) under them; limits keep the clip's own
-    excess.
-    """
-    part = rotations.slerp(np.tile([1.0, 0.0, 0.0, 0.0], (len(turns), 1)), turns, weight)
-    coloured = np.ascontiguousarray(rotations.multiply(clip_rotations, part))
-    clamp_pose(body, np.ascontiguousarray(clip_rotations, float), coloured)
-    return coloured

@@ -137,9 +137,9 @@ class Wish(NamedTuple):
     weight: float = 1.0
 
 
-def evenly(basin: float, far: float, basin_height: float = 0.01, weight: float = 1.0) -> Wish:
-    """A wish that is alike on both sides, and 1 at the far point."""
-    side = Side(basin, basin_height, far, 1.0)
+def evenly(basin: float, far: float, weight: float = 1.0) -> Wish:
+    """A wish that is alike on both sides: next to nothing in the basin, and 1 at the far point."""
+    side = Side(basin, 0.01, far, 1.0)
     return Wish(side, side, weight)
 
 

@@ -26,13 +26,10 @@ LEAST_KNEE_RAD, STRAIGHTEST = 0.25, 0.97  # of standing and stepping legs
 FOOT_NAMES = (LEFT_FOOT, RIGHT_FOOT)
 
 
-def steps_to(body: Body, start: StanceResult, end: StanceResult, first: int | None = None) -> list[Move]:
-    """The moves from one stance to another whose feet stand elsewhere. first: the side to step first, by default the
-    lighter.
-    """
+def steps_to(body: Body, start: StanceResult, end: StanceResult) -> list[Move]:
+    """The moves from one stance to another whose feet stand elsewhere; the lighter foot steps first."""
     moves, feet = [], start.feet
-    if first is None:
-        first = LEFT if start.plan.lower.root == RIGHT else RIGHT
+    first = LEFT if start.plan.lower.root == RIGHT else RIGHT
     for side in (first, 1 - first):
         if not _elsewhere(feet, end.feet, side):
             continue

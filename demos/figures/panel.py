@@ -21,9 +21,7 @@ ROW, HEAD_ROW = 25.0, 34.0
 Rows = Sequence[tuple[str, str]]
 
 
-def panel(
-    scale: float, rule: str, inputs: Rows, outputs: Rows, still: Still, legend: bool = True
-) -> tuple[Sheet, float, float]:
+def panel(scale: float, rule: str, inputs: Rows, outputs: Rows, still: Still) -> tuple[Sheet, float, float]:
     """The sheet, and where its still was put, for what is to be drawn on it."""
     height = max(still.size[1] + 60, 2 * HEAD_ROW + ROW * max(len(inputs), len(outputs)) + 40)
     sheet = Sheet(height, scale)
@@ -42,8 +40,7 @@ def panel(
     sheet.arrow((INPUTS[0] + INPUTS[1] + 8, middle), (MIDDLE[0] + 6, middle), "faint", 2.0, 11)
     sheet.arrow((MIDDLE[0] + MIDDLE[1] - 6, middle), (OUTPUTS[0] - 8, middle), "faint", 2.0, 11)
     sheet.picture(still, x, y)
-    if legend:
-        sheet.legend(12, height - 16, [(CLIP_BLUE, "before"), (RULES_YELLOW, "after")], SMALL)
+    sheet.legend(12, height - 16, [(CLIP_BLUE, "before"), (RULES_YELLOW, "after")], SMALL)
     return sheet, x, y
 
 

@@ -64,10 +64,10 @@ class Press:
             lay_over(stills[0].pixels, still.pixels, 0, join_shadows=True)
         return stills[0]
 
-    def still_at(self, scene: Scene, look: Look, unit: float, more_m=(), shadows: bool = True) -> Still:
+    def still_at(self, scene: Scene, look: Look, unit: float) -> Still:
         """The scene at a scale: so many units for a metre. For stills that must match."""
-        across_m, _ = spans_m(look, seen_points([scene], more_m, shadows))
-        return self.still(scene, look, 1.04 * across_m * unit, more_m, shadows=shadows)
+        across_m, _ = spans_m(look, seen_points([scene], (), True))
+        return self.still(scene, look, 1.04 * across_m * unit)
 
     def strip(
         self,

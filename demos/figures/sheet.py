@@ -61,13 +61,13 @@ class Sheet:
 
     def text(
         self, x: float, y: float, words: str, size: float = BODY, colour="ink", align: str = "left",
-        valign: str = "top", bold: bool = False, italic: bool = False, turned_deg: float = 0.0, halo: bool = False,
+        valign: str = "top", bold: bool = False, italic: bool = False, halo: bool = False,
     ) -> None:  # fmt: skip
         """Words; `align` left, center or right of x, `valign` top, center, baseline or bottom of y."""
         made = self.axes.text(
             x, y, words, fontsize=_points(size), color=_colour(colour), ha=align, va=valign, linespacing=1.25,
-            fontweight="bold" if bold else "normal", fontstyle="italic" if italic else "normal", rotation=turned_deg,
-            rotation_mode="anchor", zorder=10,
+            fontweight="bold" if bold else "normal", fontstyle="italic" if italic else "normal",
+            zorder=10,
         )  # fmt: skip
         if halo:
             from matplotlib import patheffects
@@ -83,16 +83,15 @@ class Sheet:
         )  # fmt: skip
 
     def arrow(
-        self, tail: Place, tip: Place, colour="ink", width: float = 1.6, head: float = 7.0, both: bool = False,
-        bend: float = 0.0, layer: float = 6,
+        self, tail: Place, tip: Place, colour="ink", width: float = 1.6, head: float = 7.0, both: bool = False
     ) -> None:  # fmt: skip
-        """A filled arrow head on a line; `bend` curves it, as a share of its length."""
+        """A filled arrow head on a line."""
         from matplotlib.patches import FancyArrowPatch
 
         style = f"{'<|-|>' if both else '-|>'},head_length={_points(head)},head_width={_points(0.42 * head)}"
         self.axes.add_patch(FancyArrowPatch(
-            tail, tip, arrowstyle=style, connectionstyle=f"arc3,rad={bend}", color=_colour(colour),
-            linewidth=_points(width), shrinkA=0, shrinkB=0, zorder=layer, joinstyle="miter",
+            tail, tip, arrowstyle=style, color=_colour(colour),
+            linewidth=_points(width), shrinkA=0, shrinkB=0, zorder=6, joinstyle="miter",
         ))  # fmt: skip
 
     def box(
@@ -106,24 +105,20 @@ class Sheet:
             facecolor=_colour(fill), edgecolor=_colour(edge), zorder=layer,
         ))  # fmt: skip
 
-    def polygon(self, points: Any, fill="none", edge="ink", line: float = 1.4, alpha: float = 1.0, layer: float = 4):
-        from matplotlib.colors import to_rgba
+    def polygon(self, points: Any, fill="none", edge="ink", line: float = 1.4, layer: float = 4):
         from matplotlib.patches import Polygon
 
-        face = to_rgba(_colour(fill), alpha) if fill != "none" else "none"
         self.axes.add_patch(Polygon(
-            np.asarray(points, float), closed=True, facecolor=face, edgecolor=_colour(edge), linewidth=_points(line),
-            zorder=layer, joinstyle="round",
+            np.asarray(points, float), closed=True, facecolor=_colour(fill), edgecolor=_colour(edge),
+            linewidth=_points(line), zorder=layer, joinstyle="round",
         ))  # fmt: skip
 
-    def circle(
-        self, centre: Place, radius: float, fill="none", edge="ink", line: float = 1.4, dashed=False, layer: float = 7
-    ):
+    def circle(self, centre: Place, radius: float, fill="none", edge="ink", line: float = 1.4, layer: float = 7):
         from matplotlib.patches import Circle
 
         self.axes.add_patch(Circle(
             centre, radius, facecolor=_colour(fill), edgecolor=_colour(edge), linewidth=_points(line),
-            linestyle=(0, (4, 3)) if dashed else "solid", zorder=layer,
+            zorder=layer,
         ))  # fmt: skip
 
     def legend(

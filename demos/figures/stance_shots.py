@@ -18,26 +18,27 @@ from engine.render.scene import Balance, Colour, Figure, Scene
 STANCE: Colour = (0.62, 0.70, 0.80)  # neither clip, rules nor reaction: a colour of its own
 DOT: Colour = (0.85, 0.12, 0.10)
 DOT_RADIUS_M = 0.045
+WIDTH = 1000.0  # of a sheet, in its own units
 
 
-def shot(body: Body, stance: StanceResult, dot_m=None, colour: Colour = STANCE, balance: bool = True) -> Scene:
+def shot(body: Body, stance: StanceResult, dot_m=None, balance: bool = True) -> Scene:
     """One stance, the ground that bears it, where its weight is, and the red dot that it is about."""
     marks = DebugDraw()
     if dot_m is not None:
         marks.point(dot_m, DOT_RADIUS_M, DOT)
-    scene = Scene([Figure(body, stance.joints_m, stance.orientations, colour)], draw=marks)
+    scene = Scene([Figure(body, stance.joints_m, stance.orientations, STANCE)], draw=marks)
     if balance:
         found = measures(body, stance)
-        scene.balances = [Balance(found.support_m, stance.com_m, stance.plan.balance_m, colour)]
+        scene.balances = [Balance(found.support_m, stance.com_m, stance.plan.balance_m, STANCE)]
     return scene
 
 
 def row_of(
     press: Press, scenes: Sequence[Scene], look: Look, pitch_m: float, words: Sequence[str], notes: Sequence[str] = (),
-    dots_m=(), width: float = 1000.0, letters: float = BODY,
+    dots_m=(), letters: float = BODY,
 ) -> tuple[Strip, Sheet]:  # fmt: skip
     """Stances side by side on a sheet, each with its word below it and a note in small print."""
-    strip = press.strip(list(scenes), look, width, pitch_m, dots_m)
+    strip = press.strip(list(scenes), look, WIDTH, pitch_m, dots_m)
     lines = max((1 + note.count("\n") for note in notes), default=0)
     sheet = Sheet(strip.size[1] + 36 + 19 * lines, press.scale)
     sheet.picture(strip, 0, 0)

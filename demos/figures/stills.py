@@ -20,6 +20,7 @@ LONG_LENS_RAD = math.radians(11.0)  # across the wider side of a still
 FLOOR_FADE_M = 60.0
 SHADE_M = 0.5
 EDGE = 5.0  # units over which a still ends
+GAP_M = 0.12  # between bodies of a strip
 SHADOW_DEPTH = 30.0  # a pixel this much darker than paper hides what an earlier still of a strip has there
 
 GREY_WITHIN, DARKEST_SHADOW = 32, 110
@@ -154,11 +155,11 @@ def film(
     return Strip(strip, size, left, each, camera)
 
 
-def packed(scenes: Sequence[Scene], look: Look, least_m: float, gap_m: float = 0.12) -> list[float]:
+def packed(scenes: Sequence[Scene], look: Look, least_m: float) -> list[float]:
     """Pitches at which no body stands in its neighbour's place: at least so much, more where somebody lies."""
     right, _, _ = look.camera.axes()
     sides = [extent_points(Scene(scene.figures)) @ right for scene in scenes]
-    return [max(least_m, float(a.max() - b.min()) + gap_m) for a, b in pairwise(sides)]
+    return [max(least_m, float(a.max() - b.min()) + GAP_M) for a, b in pairwise(sides)]
 
 
 def lay_over(paper: np.ndarray, pixels: np.ndarray, x_px: int, join_shadows: bool = False) -> None:

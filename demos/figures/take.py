@@ -13,7 +13,7 @@ from behaviours.playing import body_of, clip_of, clip_pose, clip_time_s
 from behaviours.scenario import check_scenario
 from behaviours.simulation import Simulation
 from behaviours.timing import TICK_S
-from demos.figures.meeting import balance_of, posed
+from demos.figures.meeting import posed
 from demos.figures.press import Press
 from engine.body.skeleton import Body, Pose
 from engine.core.errors import BadInput
@@ -67,17 +67,14 @@ class Take(NamedTuple):
             return SUSTAINED_ORANGE
         return COLOURS.get(self.frames[tick].phase, BLEND_GREY)
 
-    def scene(self, tick: int, about_m, balance: bool = False, balls: bool = True) -> Scene:
+    def scene(self, tick: int, about_m) -> Scene:
         """One tick, with a point of the ground (2,) over the origin."""
         frame, colour = self.frames[tick], self.colour(tick)
         pose = Pose(frame.pose.root_m - (*about_m[:2], 0.0), frame.pose.rotations)
         scene = Scene([posed(self.body, pose, colour)])
-        if balls:
-            scene.balls = [
-                replace(ball, position_m=np.subtract(ball.position_m, (*about_m[:2], 0.0))) for ball in frame.balls
-            ]
-        if balance:
-            scene.balances = [balance_of(self.body, pose, frame.planted, colour)]
+        scene.balls = [
+            replace(ball, position_m=np.subtract(ball.position_m, (*about_m[:2], 0.0))) for ball in frame.balls
+        ]
         return scene
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 
 from engine.body import support
-from engine.body.skeleton import ANKLES, HIPS, KNEES, TOES
+from engine.body.skeleton import ANKLES, HIPS, KNEES
 from engine.maths import quaternion, vector
 from engine.maths.inner_kernel import inner_kernel
 from engine.maths.kernel import njit
@@ -75,17 +75,6 @@ def nearest_footing(body, positions, orientations, side, ground_m, spare_m):
     away = math.hypot(dx, dy)
     share = min(1.0, farthest / away) if away > 1e-9 else 1.0
     return (hip[0] + share * dx, hip[1] + share * dy, height), orientation, True
-
-
-@njit(cache=True)
-def straighten_toe(body, rotations, positions, orientations, side):
-    """Turns the toes in line with the foot, in place: a foot that is put down flat must not keep them bent."""
-    ankle, toe = ANKLES[side], TOES[side]
-    for k in range(4):
-        rotations[toe, k] = 1.0 if k == 0 else 0.0
-        orientations[toe, k] = orientations[ankle, k]
-    p = vector.add(positions[ankle], quaternion.rotate(orientations[ankle], body.offset_m[toe]))
-    positions[toe, 0], positions[toe, 1], positions[toe, 2] = p
 
 
 @njit(cache=True)

@@ -60,9 +60,6 @@ class EventLog:
     def __iter__(self) -> Iterator[Event]:
         return iter(self._events)
 
-    def of_kind(self, kind: str) -> list[Event]:
-        return [event for event in self._events if event.kind == kind]
-
     def parts(self) -> list[bytes]:
         """What the digest needs: how many, and the chain."""
         return [integer(len(self._events)), self._chain]

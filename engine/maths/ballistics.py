@@ -56,12 +56,3 @@ def fly(position_m, velocity_mps, gravity_mps2, drag, dt_s):
         x, y, z, u, v, w = _drift(x, y, z, u + gx, v + gy, w + gz, drag, h)
         u, v, w = u + gx, v + gy, w + gz
     return (x, y, z), (u, v, w)
-
-
-@njit(cache=True)
-def fly_rows(position_m, velocity_mps, gravity_mps2, drag, dt_s):
-    """Many balls, in place: (N, 3), (N, 3), (3,), (N,), s."""
-    for n in range(len(position_m)):
-        p, q = fly(position_m[n], velocity_mps[n], gravity_mps2, drag[n], dt_s)
-        position_m[n, 0], position_m[n, 1], position_m[n, 2] = p
-        velocity_mps[n, 0], velocity_mps[n, 1], velocity_mps[n, 2] = q

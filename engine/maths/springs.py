@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import math
 
-from engine.maths import quaternion
 from engine.maths.inner_kernel import inner_kernel
 from engine.maths.kernel import njit
 
@@ -55,13 +54,6 @@ def critical3(value, velocity, goal, half_life_s, dt_s):
     y, v = critical(value[1], velocity[1], goal[1], half_life_s, dt_s)
     z, w = critical(value[2], velocity[2], goal[2], half_life_s, dt_s)
     return (x, y, z), (u, v, w)
-
-
-@njit(cache=True)
-def decaying_rotation(offset, angular_velocity, half_life_s, dt_s):
-    """What is left of a rotation offset (unit quaternion) and its angular velocity (rotation vector per second)."""
-    r, w = critical3(quaternion.to_rotation_vector(offset), angular_velocity, (0.0, 0.0, 0.0), half_life_s, dt_s)
-    return quaternion.from_rotation_vector(r), w
 
 
 @njit(cache=True)

@@ -43,13 +43,6 @@ class Material(NamedTuple):
     friction: float  # Coulomb
 
 
-# Inflated balls dropped on a hard floor return with 0.75 - 0.8 of their speed (normal drop tests as of Haron and Ismail
-# 2012) and lose more the faster they come, a soccer ball at 25 m/s another 0.1 (Price, Jones and Harland 2006); flesh
-# takes its part. Hollow balls grip at almost every angle: friction 0.5 and up (Cross 2014, Oblique bounce of a ball).
-VOLLEYBALL_ON_SKIN = Material(0.65, 0.6)
-VOLLEYBALL_CONTACT_S = 0.010  # spec A8
-
-
 class Hit(NamedTuple):
     """The first contact of a ball with a body within a tick."""
 
@@ -163,7 +156,7 @@ def body_after(model: RagdollModel, state: np.ndarray, impulse: Impulse) -> np.n
     return out
 
 
-def push_of(impulse: Impulse, since_s: float, duration_s: float = VOLLEYBALL_CONTACT_S) -> Push:
+def push_of(impulse: Impulse, since_s: float, duration_s: float) -> Push:
     """The body's side of the impulse, for ragdoll.step to deliver; since_s: time since contact when the step begins."""
     return Push(impulse.joint, impulse.place_m, -impulse.impulse_Ns, since_s, duration_s)
 

@@ -70,14 +70,3 @@ def test_a_past_that_cannot_have_been_is_nan_and_says_how_long_it_may_be():
     p, _ = ballistics.fly((0.0, 0.0, 0.0), (25.0, 0.0, 0.0), (0.0, 0.0, 0.0), 0.05, -0.85)
     assert math.isnan(p[0])
     assert ballistics.longest_past_s(25.0, 0.0) == math.inf
-
-
-def test_many_rows_fly_as_one():
-    rng = np.random.default_rng(1)
-    p, v, drag = rng.normal(size=(5, 3)), rng.normal(size=(5, 3)) * 10, np.array([0.0, 0.01, 0.02, 0.0, 0.05])
-    rows_p, rows_v = p.copy(), v.copy()
-    ballistics.fly_rows(rows_p, rows_v, np.array(G), drag, 1 / 120)
-    for n in range(5):
-        one = ballistics.fly(p[n], v[n], G, drag[n], 1 / 120)
-        np.testing.assert_array_equal(rows_p[n], one[0])
-        np.testing.assert_array_equal(rows_v[n], one[1])

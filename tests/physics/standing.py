@@ -10,10 +10,12 @@ from engine.body.capsules import body_capsules
 from engine.body.skeleton import PARENT, Pose
 from engine.maths.rotations import rotate, to_matrix
 from engine.physics import ragdoll, tracking
+from engine.physics.impact import Material
 from engine.physics.model import model_for
 from tests.body.poses import identity_pose, random_pose
 
 TICK_S = 1.0 / 120.0
+VOLLEYBALL_ON_SKIN, CONTACT_S = Material(0.65, 0.6), 0.010
 BODY = standard_body()
 MODEL = model_for(BODY)
 SHAPES = body_capsules(BODY)

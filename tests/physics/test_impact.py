@@ -14,7 +14,18 @@ from engine.body.skeleton import HEAD, WRISTS, Pose
 from engine.maths import ballistics, quaternion
 from engine.physics import impact, ragdoll, stops
 from engine.physics.impact import Ball, Material
-from tests.physics.standing import BODY, MODEL, SHAPES, TICK_S, kinetic_energy, momentum, moving, standing
+from tests.physics.standing import (
+    BODY,
+    CONTACT_S,
+    MODEL,
+    SHAPES,
+    TICK_S,
+    VOLLEYBALL_ON_SKIN,
+    kinetic_energy,
+    momentum,
+    moving,
+    standing,
+)
 
 seeds = st.integers(0, 2**32 - 1)
 
@@ -133,8 +144,8 @@ def test_a_ball_on_the_floor_bounces_by_the_book():
 
 def test_what_the_body_is_given_in_shares_the_ball_loses_in_the_same_shares():
     state, hit, ball = random_contact(11, 0.27)
-    given_ = impact.exchange(MODEL, state, ball, hit, impact.VOLLEYBALL_ON_SKIN)
-    push = impact.push_of(given_, -0.003)
+    given_ = impact.exchange(MODEL, state, ball, hit, VOLLEYBALL_ON_SKIN)
+    push = impact.push_of(given_, -0.003, CONTACT_S)
     h = TICK_S / 4
     times = -0.003 + h * np.arange(9)
     shares = np.array([ragdoll.share_in(push, a, b) for a, b in itertools.pairwise(times)])
@@ -175,7 +186,7 @@ def test_a_spiked_volleyball_in_the_face_shakes_the_head_as_measured_and_moves_t
     given_ = spike(0.27, state, pose)
     trace = np.empty((8 * ragdoll.sub_steps_in(TICK_S), 21, 3))
     for k in range(8):
-        push = (impact.push_of(given_, k * TICK_S),)
+        push = (impact.push_of(given_, k * TICK_S, CONTACT_S),)
         part = trace[4 * k : 4 * k + 4]
         state = ragdoll.step(MODEL, state, pose, 1.0, 1.0, TICK_S, push, trace=part)
     speeds = np.concatenate([np.zeros((1, 3)), trace[:, HEAD]])
@@ -193,7 +204,7 @@ def spike(mass_kg, state, pose, height_m=1.62):
     start = (0.5, 0.0, height_m)
     hit = impact.first_hit(SHAPES, frames, frames, start, (-0.5, 0.0, height_m), 0.105)
     ball = Ball(mass_kg, 0.105, start, (-25.0, 0.0, 0.0))
-    return impact.exchange(MODEL, state, ball, hit, impact.VOLLEYBALL_ON_SKIN)
+    return impact.exchange(MODEL, state, ball, hit, VOLLEYBALL_ON_SKIN)
 
 
 def test_a_five_kilogram_ball_at_that_speed_knocks_the_body_down():
@@ -201,7 +212,7 @@ def test_a_five_kilogram_ball_at_that_speed_knocks_the_body_down():
     state = ragdoll.start(MODEL, pose, pose, TICK_S)
     given_ = spike(5.0, state, pose, 1.3)
     for k in range(240):
-        pushes = (impact.push_of(given_, k * TICK_S),) if k < 3 else ()
+        pushes = (impact.push_of(given_, k * TICK_S, CONTACT_S),) if k < 3 else ()
         state = ragdoll.step(MODEL, state, pose, 1.0, 1.0, TICK_S, pushes)
     com = kinematics.com_of(BODY, ragdoll.pose_of(MODEL, state))
     assert com[2] < 0.3

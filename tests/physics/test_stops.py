@@ -15,7 +15,17 @@ from engine.maths import quaternion, vector
 from engine.physics import impact, limit_stops, part_stops, ragdoll, stops
 from engine.physics.impact import Push
 from engine.physics.rows import MOST_ROWS
-from tests.physics.standing import BODY, MODEL, SHAPES, TICK_S, kinetic_energy, momentum, standing
+from tests.physics.standing import (
+    BODY,
+    CONTACT_S,
+    MODEL,
+    SHAPES,
+    TICK_S,
+    VOLLEYBALL_ON_SKIN,
+    kinetic_energy,
+    momentum,
+    standing,
+)
 
 NV = MODEL.mujoco_model.nv
 
@@ -199,7 +209,7 @@ def test_a_whole_blow_against_a_hand_on_the_face_keeps_momentum_and_makes_no_ene
     hit = impact.first_hit(SHAPES, frames, frames, aim + [0.5, 0.0, 0.0], aim - [0.5, 0.0, 0.0], 0.105)
     assert hit.part == "left_hand"
     ball = impact.Ball(0.27, 0.105, tuple(hit.point_m + 0.105 * hit.normal), (-27.0, 0.0, 0.0))
-    given = impact.exchange(MODEL, state, ball, hit, impact.VOLLEYBALL_ON_SKIN)
+    given = impact.exchange(MODEL, state, ball, hit, VOLLEYBALL_ON_SKIN)
 
     def total(state, ball):
         return momentum(MODEL, state)[0] + ball.mass_kg * np.array(ball.velocity_mps)
@@ -211,7 +221,7 @@ def test_a_whole_blow_against_a_hand_on_the_face_keeps_momentum_and_makes_no_ene
     began, energy_J = total(state, ball), joules(state, ball)
     held = []
     for k in range(12):
-        push = impact.push_of(given, k * TICK_S)
+        push = impact.push_of(given, k * TICK_S, CONTACT_S)
         state = ragdoll.step(MODEL, state, pose, 0.0, 1.0, TICK_S, (push,))
         ball = impact.ball_after(ball, given, ragdoll.share_in(push, push.since_s, push.since_s + TICK_S))
         np.testing.assert_allclose(total(state, ball), began, atol=1e-10)

@@ -2,7 +2,8 @@
 
 import pytest
 
-from behaviours.rules.controls import CONTROLS, controls_from_threat, normalise
+from behaviours.perceive.threats import normalised
+from behaviours.rules.controls import CONTROLS, controls_from_threat
 
 
 def test_lean_from_speed_all_others_from_size():
@@ -19,8 +20,4 @@ def test_clamped_to_what_controls_may_be():
 @pytest.mark.parametrize(("value", "expected"), [(10, 0.0), (15, 0.5), (20, 1.0), (25, 1.0), (3, 0.0)])
 def test_the_thesis_example(value, expected):
     """3.2.1: a range of 10 to 20, perceived at 15."""
-    assert normalise(value, 10.0, 20.0) == expected
-
-
-def test_an_empty_range_has_an_answer():
-    assert (normalise(1.0, 2.0, 2.0), normalise(2.0, 2.0, 2.0)) == (0.0, 1.0)
+    assert normalised(value, 10.0, 20.0) == expected
