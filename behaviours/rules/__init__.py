@@ -5,5 +5,5 @@
 
 To add one: a file here; its constants, a group of `settings.Settings`; that group among `protect.task.Rules`, filled
 in `protect.prepare.rules_of` and passed on in `protect.arm_wishes.beside_head`; and its call in
-`protect.apply_rules.place_trunk`, or in `protect.guard` for an arm. A side that it chooses is chosen once, in `prepare`.
+`protect.apply_rules.place_trunk`, or in `protect.guard` for an arm. What it chooses is chosen once, in `prepare`.
 """
