@@ -12,7 +12,7 @@ from behaviours.perceive.threats import KINDS, Make, make_threat
 from behaviours.playing import body_of, heading_of, perception_clip_s
 from behaviours.protect.prepare import aim_point, prepare
 from behaviours.protect.protection import felt, look_ahead, perceive
-from behaviours.scenario import ThreatSpec
+from behaviours.scenario_spec import ThreatSpec
 from behaviours.settle.seams import shown
 from behaviours.timing import TICK_S, time_to_contact_s, whole_ticks
 from engine.body.kinematics import joints_of

@@ -42,7 +42,8 @@ from behaviours.recover.library import FindClip, gather_libraries
 from behaviours.recover.search import Library
 from behaviours.respond.contact import meet_balls
 from behaviours.respond.response import step_bodies
-from behaviours.scenario import CharacterSpec, Scenario, ThreatSpec, check_threat
+from behaviours.scenario import check_threat
+from behaviours.scenario_spec import CharacterSpec, Scenario, ThreatSpec
 from behaviours.settings import Settings
 from behaviours.settle.settling import settle_poses
 from behaviours.stance.shape import mix, shape

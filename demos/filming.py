@@ -10,7 +10,7 @@ from typing import NamedTuple
 import numpy as np
 
 from behaviours.components import Character, Phase, Reaction
-from behaviours.scenario import Scenario
+from behaviours.scenario_spec import Scenario
 from demos.frames import frames_of, slowed_frames_of
 from demos.stage import floor_under, pelvis_m, scene_of
 from demos.window.slow_motion import SlowMotion

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from behaviours.scenario import Scenario
+from behaviours.scenario_spec import Scenario
 from demos.stage import floor_under, scene_of
 from demos.window.help import ACTIONS, draw_help
 from demos.window.keeping import Keeper

@@ -10,7 +10,8 @@ from pathlib import Path
 from typing import Any, TypeVar
 
 from behaviours.recover.library import library_names
-from behaviours.scenario import CharacterSpec, Scenario, check_scenario, load_scenario, parse_scenario
+from behaviours.scenario import check_scenario, load_scenario, parse_scenario
+from behaviours.scenario_spec import CharacterSpec, Scenario
 from behaviours.simulation import Simulation, apply_command
 from demos.kernels import get_kernels_ready
 from demos.scenarios import FOLDER, PROGRAMS, find_scenario

@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import TYPE_CHECKING
 
-from behaviours.scenario import CharacterSpec, Scenario
+from behaviours.scenario_spec import CharacterSpec, Scenario
 from behaviours.settings import Settings
 from engine.clips.clip import Clip
 from engine.clips.library import list_clips

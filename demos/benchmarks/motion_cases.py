@@ -7,7 +7,8 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from behaviours.scenario import Scenario, check_scenario
+from behaviours.scenario import check_scenario
+from behaviours.scenario_spec import Scenario
 from behaviours.timing import TICK_S
 from engine.clips.clip import Clip
 from engine.clips.library import LIBRARY, find_clip

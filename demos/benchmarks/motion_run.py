@@ -11,7 +11,7 @@ from behaviours.components import Flight, Phase, Reaction, Sustained
 from behaviours.measure import measures
 from behaviours.measure.head_measures import head_acceleration_g
 from behaviours.measure.observing import HandWay, Observer, Track
-from behaviours.scenario import CharacterSpec, Scenario
+from behaviours.scenario_spec import CharacterSpec, Scenario
 from behaviours.simulation import Simulation
 from behaviours.timing import TICK_S
 from demos.benchmarks.motion_cases import Case, scenario_of

@@ -7,7 +7,7 @@ from typing import NamedTuple
 import numpy as np
 
 from behaviours.perceive.threats import make_threat
-from behaviours.scenario import CharacterSpec
+from behaviours.scenario_spec import CharacterSpec
 from behaviours.settings import Settings
 from behaviours.timing import ease, time_to_contact_s
 from demos.figures.press import Press

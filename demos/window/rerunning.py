@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
-from behaviours.scenario import Scenario
+from behaviours.scenario_spec import Scenario
 from demos.window.run import Inputs, Run
 from engine.core.errors import BraceError
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from pathlib import Path
 
-from behaviours.scenario import CharacterSpec, Scenario
+from behaviours.scenario_spec import CharacterSpec, Scenario
 from behaviours.simulation import Simulation, apply_command
 from demos.running import journal_of
 from demos.window.history import History

@@ -7,7 +7,8 @@ from typing import Any
 
 import tomlkit
 
-from behaviours.scenario import CharacterSpec, parse_scenario
+from behaviours.scenario import parse_scenario
+from behaviours.scenario_spec import CharacterSpec
 from demos.window.run import Run
 from engine.clips.library import list_clips
 from engine.core.clock import TICK_RATE_HZ, seconds

@@ -17,7 +17,8 @@ import numpy as np
 
 from behaviours.components import Character, Phase, Posture, Reaction
 from behaviours.playing import body_of
-from behaviours.scenario import CharacterSpec, Scenario, check_scenario
+from behaviours.scenario import check_scenario
+from behaviours.scenario_spec import CharacterSpec, Scenario
 from behaviours.simulation import flat_settings
 from demos.stage import pelvis_m
 from demos.window.phases import WORDS

@@ -7,7 +7,7 @@ from dataclasses import asdict, dataclass, fields
 from typing import Any
 
 from behaviours.perceive.threats import KINDS
-from behaviours.scenario import ThreatSpec
+from behaviours.scenario_spec import ThreatSpec
 
 
 @dataclass

@@ -9,7 +9,7 @@ from behaviours.perceive.approach import coming_from
 from behaviours.perceive.senses import facing_dot
 from behaviours.perceive.threats import KINDS, make_threat
 from behaviours.playing import heading_of
-from behaviours.scenario import BODY_TARGETS
+from behaviours.scenario_spec import BODY_TARGETS
 from behaviours.timing import time_to_contact_s
 from engine.body.skeleton import JOINTS
 

@@ -8,7 +8,8 @@ from typing import Any
 
 import numpy as np
 
-from behaviours.scenario import Scenario, check_scenario
+from behaviours.scenario import check_scenario
+from behaviours.scenario_spec import Scenario
 from behaviours.simulation import Simulation
 from engine.clips.library import find_clip
 

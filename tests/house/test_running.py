@@ -6,7 +6,7 @@ from itertools import pairwise
 import pytest
 
 from behaviours.recover import library
-from behaviours.scenario import Scenario
+from behaviours.scenario_spec import Scenario
 from behaviours.settings import Settings
 from demos.cli import main
 from engine.clips.library import Listed

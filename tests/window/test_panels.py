@@ -4,7 +4,8 @@ import pytest
 
 from behaviours.overriding import constants
 from behaviours.perceive.threats import KINDS
-from behaviours.scenario import BODY_TARGETS, Scenario, check_scenario
+from behaviours.scenario import check_scenario
+from behaviours.scenario_spec import BODY_TARGETS, Scenario
 from behaviours.settings import Settings
 from behaviours.simulation import flat_settings
 from demos.window.clips_panel import ClipsPanel, Row, matches
