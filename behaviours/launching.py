@@ -5,13 +5,13 @@ from __future__ import annotations
 import math
 
 from behaviours.components import Character, Feet, Flight, Playback, Posture, Reaction, Script, Threat
-from behaviours.perceive.approach import Approach, coming_from, plan_approach
+from behaviours.perceive.approach import Approach, coming_from
 from behaviours.perceive.perceived import aim_of, target_centre
 from behaviours.perceive.senses import face, facing_dot, first_due
 from behaviours.perceive.threats import KINDS, Make, make_threat
 from behaviours.playing import body_of, heading_of, perception_clip_s
-from behaviours.protect.prepare import aim_point, prepare
-from behaviours.protect.protection import felt, look_ahead, perceive
+from behaviours.protect.aiming import Asked, aimed
+from behaviours.protect.protection import at_perception, felt
 from behaviours.scenario_spec import ThreatSpec
 from behaviours.settle.seams import shown
 from behaviours.timing import TICK_S, time_to_contact_s, whole_ticks
@@ -20,7 +20,6 @@ from engine.core.schedule import Stage, system
 from engine.maths import vector
 from engine.maths.ballistics import GRAVITY_MPS2, fly
 
-AIM_PASSES = 2  # the aim depends on the lean, the lean on the direction of travel, that on the aim: settled in two
 UPRIGHT = (1.0, 0.0, 0.0, 0.0)
 
 
@@ -116,31 +115,13 @@ def threaten(world, spec: ThreatSpec) -> None:
 
 def aimed_approach(world, spec: ThreatSpec, make: Make, row: int) -> Approach:
     """The flight that meets the target's centre as it will be in the rules pose, before block (A1)."""
-    settings, body, now = world.assets.settings, body_of(world, row), shown(world, row)[0]
     ttc_s = whole_ticks(scripted_ttc_s(world, spec, row)) * TICK_S
-    clip_s = perception_clip_s(world, row, world.tick)
-    ahead, planted, landing = look_ahead(world, row, clip_s, ttc_s)
-    joint, offset = aim_of(body, str(spec.target))
-    aim = target_centre(joint, offset, *joints_of(body, now))
-    for _ in range(AIM_PASSES + 1):
-        way = plan_approach(
-            aim,
-            heading_of(world, row),
-            math.radians(spec.azimuth_deg),
-            math.radians(spec.elevation_deg),
-            speed_of(spec),
-            ttc_s,
-            radius_m=make.radius_m,
-            drag=make.drag_per_m,
-            low_path=settings.threats.low_path,
-        )
-        travel = vector.unit(vector.subtract(way.contact_m, way.start_m), (-1.0, 0.0, 0.0))
-        tangent = vector.unit(way.contact_mps, travel)
-        speed_norm, size_norm = felt(world, row, make.speed_norm, make.size_norm)
-        threat = perceive(body, now, str(spec.target), aim, tangent, travel, speed_norm, size_norm, make.radius_m)
-        side = float(world[Character].turn_side[row])
-        aim = aim_point(prepare(body, now, ahead, planted, threat, settings, side, landing))
-    return way
+    at = at_perception(world, row, perception_clip_s(world, row, world.tick), ttc_s)
+    asked = Asked(
+        str(spec.target), math.radians(spec.azimuth_deg), math.radians(spec.elevation_deg), speed_of(spec), ttc_s,
+        make, felt(world, row, make.speed_norm, make.size_norm),
+    )  # fmt: skip
+    return aimed(body_of(world, row), at, asked, world.assets.settings)[0]
 
 
 def ball(kind: str, make: Make, position_m, velocity_mps, spin_radps=(0.0, 0.0, 0.0)) -> Flight:

@@ -11,12 +11,12 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from behaviours.perceive.approach import Approach, coming_from, plan_approach
-from behaviours.perceive.perceived import PerceivedThreat, aim_of, target_centre
+from behaviours.perceive.approach import Approach, coming_from
+from behaviours.perceive.perceived import PerceivedThreat
 from behaviours.perceive.threats import KINDS, Make, make_threat
-from behaviours.protect.prepare import aim_point, prepare
-from behaviours.protect.protection import perceive
+from behaviours.protect.aiming import Asked, aimed
 from behaviours.protect.sustained import Protection, protect
+from behaviours.protect.task import AtPerception
 from behaviours.rules.controls import CONTROLS
 from behaviours.settings import Settings
 from behaviours.timing import TICK_S, facing_dot_threat, time_to_contact_s, whole_ticks
@@ -25,9 +25,8 @@ from engine.body.kinematics import com_of, joints_of
 from engine.body.skeleton import JOINTS, PELVIS, Body, Pose
 from engine.clips.clip import Clip
 from engine.clips.playback import planted_at, sample
-from engine.maths import quaternion, vector
+from engine.maths import quaternion
 
-AIM_PASSES = 3  # the aim depends on the lean, the lean on the direction of travel, that on the aim
 REPORTED_ERRORS = ("balance", "hands", "torso", "pelvis_height", "feet", "controls", "limits", "total")
 
 
@@ -61,20 +60,18 @@ def pose_case(clip: Clip, case: PoseCase, settings: Settings) -> PosedCase:
     """The protective pose of a clip's subject at a time against a scripted threat. ValueError for an unknown target."""
     make = make_threat(case.kind, case.speed_mps, case.size, size_means=case.size_means)
     now = _sampled(clip, case.at_s, case.worn)
-    heading = float(quaternion.heading(now.rotations[PELVIS]))
-    ttc_s = _ttc_s(case, make, heading, settings)
+    ttc_s = _ttc_s(case, make, float(quaternion.heading(now.rotations[PELVIS])), settings)
     ahead, planted, landing = _look_ahead(clip, case, ttc_s, settings)
-    joint, offset = aim_of(clip.body, case.target)
-    aim = target_centre(joint, offset, *joints_of(clip.body, now))
-    for _ in range(AIM_PASSES):
-        way = _approach(case, make, heading, aim, ttc_s, settings)
-        threat = _perceived(clip.body, now, case, make, way, aim, settings)
-        task = prepare(clip.body, now, ahead, planted, threat, settings, landing=landing)
-        aim = aim_point(task)
-    way = _approach(case, make, heading, aim, ttc_s, settings)
-    threat = _perceived(clip.body, now, case, make, way, aim, settings)
-    found = protect(clip.body, now, ahead, planted, threat, settings, landing=landing)
-    return PosedCase(clip.body, now, ahead, threat, way, found)
+    at, temper = AtPerception(now, ahead, planted, landing), settings.temper
+    felt = (
+        as_felt(make.speed_norm, case.boldness, temper.speed_share),
+        as_felt(make.size_norm, case.boldness, temper.size_share),
+    )
+    asked = Asked(
+        case.target, math.radians(case.azimuth_deg), math.radians(case.elevation_deg), case.speed_mps, ttc_s, make, felt
+    )
+    way, threat = aimed(clip.body, at, asked, settings)
+    return PosedCase(clip.body, now, ahead, threat, way, protect(clip.body, at, threat, settings))
 
 
 def _ttc_s(case: PoseCase, make: Make, heading: float, settings: Settings) -> float:
@@ -99,26 +96,6 @@ def _look_ahead(clip: Clip, case: PoseCase, ttc_s: float, settings: Settings) ->
             if there.any():
                 return _sampled(clip, case.at_s + k * TICK_S, case.worn), there, True
     return _sampled(clip, case.at_s + settings.timing.sustained_ahead_s, case.worn), planted, False
-
-
-def _approach(case: PoseCase, make: Make, heading: float, aim, ttc_s: float, settings: Settings) -> Approach:
-    return plan_approach(
-        aim, heading, math.radians(case.azimuth_deg), math.radians(case.elevation_deg), case.speed_mps, ttc_s,
-        radius_m=make.radius_m, drag=make.drag_per_m, low_path=settings.threats.low_path,
-    )  # fmt: skip
-
-
-def _perceived(
-    body: Body, now: Pose, case: PoseCase, make: Make, way: Approach, aim, settings: Settings
-) -> PerceivedThreat:
-    temper = settings.temper
-    felt = (
-        as_felt(make.speed_norm, case.boldness, temper.speed_share),
-        as_felt(make.size_norm, case.boldness, temper.size_share),
-    )
-    travel = vector.unit(vector.subtract(way.contact_m, way.start_m), (-1.0, 0.0, 0.0))
-    tangent = vector.unit(way.contact_mps, travel)
-    return perceive(body, now, case.target, aim, tangent, travel, *felt, make.radius_m)
 
 
 def pose_report(posed: PosedCase, milliseconds: float | None = None) -> dict[str, Any]:

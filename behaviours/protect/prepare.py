@@ -11,7 +11,7 @@ from behaviours.protect import plant
 from behaviours.protect.apply_rules import hang_leg, place_trunk
 from behaviours.protect.look_ahead import PelvisWay, go_ahead
 from behaviours.protect.mirroring import mirror_pose, mirror_task, mirror_threat
-from behaviours.protect.task import Choices, FeetPlan, Posed, Rules, Start, Task, bones_of, new_posed
+from behaviours.protect.task import AtPerception, Choices, FeetPlan, Posed, Rules, Start, Task, bones_of, new_posed
 from behaviours.rules.controls import LEAN, TURN, controls_from_threat
 from behaviours.rules.turn import TURN_RIGHT, turn_side, wanted_turn
 from behaviours.rules.wrap import wrap_share
@@ -37,71 +37,48 @@ LEG_JOINTS = 4  # hip, knee, ankle, toe, one after the other
 UP = (0.0, 0.0, 1.0)
 
 
-def prepare(
-    body: Body,
-    pose_now: Pose,
-    pose_ahead: Pose,
-    planted,
-    threat: PerceivedThreat,
-    settings: Settings,
-    previous_turn_side: float = 0.0,
-    landing: bool = False,
-) -> Task:
-    """The task of protecting against a threat perceived in `pose_now`, world poses, before any rule has acted.
-
-    pose_ahead: the clip 1/6 s later, where the pelvis and a foot in the air are taken from. planted (2,): the feet
-    that stand at perception. With `landing`, pose_ahead is the clip's next landing instead, `planted` the feet that
-    stand *there*, and they are held where that pose has them.
-    """
-    if _side(pose_now, threat, settings, previous_turn_side) == TURN_RIGHT:
-        return _prepare(body, pose_now, pose_ahead, planted, threat, settings, previous_turn_side, landing)
+def prepare(body: Body, at: AtPerception, threat: PerceivedThreat, settings: Settings) -> Task:
+    """The task of protecting against a threat, before any rule has acted."""
+    if _side(at, threat, settings) == TURN_RIGHT:
+        return _prepare(body, at, threat, settings)
     # who turns left is worked out in the mirror, see behaviours.protect.mirroring
-    mirrored = _prepare(
-        mirror_body(body), _contiguous(mirror_pose(pose_now)), _contiguous(mirror_pose(pose_ahead)),
-        np.array(planted, bool)[::-1], mirror_threat(threat), settings, -previous_turn_side, landing,
+    mirrored = AtPerception(
+        _contiguous(mirror_pose(at.now)), _contiguous(mirror_pose(at.ahead)), np.array(at.planted, bool)[::-1],
+        at.landing, -at.turn_side,
     )  # fmt: skip
-    return mirror_task(mirrored)
+    return mirror_task(_prepare(mirror_body(body), mirrored, mirror_threat(threat), settings))
 
 
-def _side(pose_now: Pose, threat: PerceivedThreat, settings: Settings, previous_turn_side: float) -> float:
+def _side(at: AtPerception, threat: PerceivedThreat, settings: Settings) -> float:
     """Which way this threat turns the character."""
-    heading = quaternion.heading(pose_now.rotations[PELVIS])
+    heading = quaternion.heading(at.now.rotations[PELVIS])
     travel = quaternion.unrotate(quaternion.about_z(heading), threat.direction)
-    return turn_side(travel, settings.lean_turn.dead_ahead_rad, float(previous_turn_side))
+    return turn_side(travel, settings.lean_turn.dead_ahead_rad, float(at.turn_side))
 
 
 def _contiguous(pose: Pose) -> Pose:
     return Pose(np.ascontiguousarray(pose.root_m), np.ascontiguousarray(pose.rotations))
 
 
-def _prepare(
-    body: Body,
-    pose_now: Pose,
-    pose_ahead: Pose,
-    planted,
-    threat: PerceivedThreat,
-    settings: Settings,
-    previous_turn_side: float,
-    landing: bool,
-) -> Task:
+def _prepare(body: Body, at: AtPerception, threat: PerceivedThreat, settings: Settings) -> Task:
     """The same for a threat that turns the character right."""
-    stands_in = pose_ahead if landing else pose_now
+    stands_in = at.ahead if at.landing else at.now
     positions, orientations = joints_of(body, stands_in)
-    feet = plant.stand_where_planted(planted, positions, orientations, stands_in.rotations)
-    legs_ahead = [landing or not stands for stands in feet.held]
-    start = start_pose(body, pose_now, pose_ahead, legs_ahead)
+    feet = plant.stand_where_planted(at.planted, positions, orientations, stands_in.rotations)
+    legs_ahead = [at.landing or not stands for stands in feet.held]
+    start = start_pose(body, at.now, at.ahead, legs_ahead)
     task = Task(*bones_of(body), start, feet, threat, _no_choices(), rules_of(settings))
-    task = task._replace(choices=choose_turn(task, settings, previous_turn_side))
+    task = task._replace(choices=choose_turn(task, settings, at.turn_side))
 
     # the pelvis goes as far ahead as the planted legs allow, then the foot in the air is set down
     controls = controls_from_threat(threat.speed_norm, threat.size_norm)
     balance, posed = settings.balance, new_posed()
-    way = PelvisWay(*_pelvis_of(stands_in), *_pelvis_of(pose_ahead), orientations[list(HIPS)])
+    way = PelvisWay(*_pelvis_of(stands_in), *_pelvis_of(at.ahead), orientations[list(HIPS)])
     go_ahead(task, controls, way, balance.leg_share, balance.brace_m, posed)
     place_hips(task, controls, posed)
     if feet.held.any():
-        feet = _set_down(body, task, controls, joints_of(body, pose_ahead), posed, settings)
-    feet = feet._replace(step_m=plant.steps_m(feet, joints_of(body, pose_now)[0]))
+        feet = _set_down(body, task, controls, joints_of(body, at.ahead), posed, settings)
+    feet = feet._replace(step_m=plant.steps_m(feet, joints_of(body, at.now)[0]))
     task = task._replace(feet=feet)
     return task._replace(choices=choose_guard(task, posed))
 

@@ -9,37 +9,16 @@ from typing import NamedTuple
 import numpy as np
 
 from behaviours.components import Character, Flight, Reaction, Sustained, Threat
-from behaviours.perceive.perceived import AIMS, PerceivedThreat, aim_of, target_weights
-from behaviours.perceive.threats import KINDS
+from behaviours.perceive.perceived import AIMS, PerceivedThreat
 from behaviours.playing import body_of, clip_pose, planted_in_clip
+from behaviours.protect.aiming import perceive
 from behaviours.protect.mirroring import rounded_pose, rounded_threat
 from behaviours.protect.sustained import Protection, protect
+from behaviours.protect.task import AtPerception
 from behaviours.settle.seams import shown
 from behaviours.timing import TICK_S
 from behaviours.wearing import as_felt
-from engine.body.kinematics import joints_of
-from engine.body.skeleton import Body, Pose
-
-
-def perceive(
-    body: Body, pose: Pose, aim: str, line_m, tangent, travel, speed_norm: float, size_norm: float, radius_m: float
-) -> PerceivedThreat:
-    """A threat as the rules take it. `pose` says how head and pelvis share the defence (3.4)."""
-    joint, offset = aim_of(body, aim)
-    head, pelvis = 1.0, 0.0
-    if aim == "pelvis":
-        head, pelvis = 0.0, 1.0
-    elif aim != "head":
-        head, pelvis = target_weights(body, line_m, *joints_of(body, pose))
-    excess_m = max(0.0, radius_m - KINDS["volleyball"].radius_m)
-    return PerceivedThreat(
-        _triple(travel), _triple(tangent), _triple(line_m), joint, offset,
-        float(speed_norm), float(size_norm), excess_m, float(head), float(pelvis),
-    )  # fmt: skip
-
-
-def _triple(v) -> tuple[float, float, float]:
-    return (float(v[0]), float(v[1]), float(v[2]))
+from engine.body.skeleton import Pose
 
 
 def felt(world, row: int, speed_norm: float, size_norm: float) -> tuple[float, float]:
@@ -63,18 +42,18 @@ def perceived_threat(world, row: int, threat_row: int) -> PerceivedThreat:
     )
 
 
-def look_ahead(world, row: int, clip_s: float, ttc_s: float) -> tuple[Pose, np.ndarray, bool]:
-    """The clip's pose that pelvis and lifted foot come from, which feet stand, and whether that is the clip's next
-    landing (A4).
-
-    With a foot on the ground: the clip 1/6 s on. In flight: the landing, if it comes within the time to contact.
+def at_perception(world, row: int, clip_s: float, ttc_s: float) -> AtPerception:
+    """How a character is now, and where its clip goes on (A4): 1/6 s with a foot on the ground; in flight to its next
+    landing, if that comes within the time to contact.
     """
+    now, turn_side = shown(world, row)[0], float(world[Character].turn_side[row])
     flies = flight_ticks(world, row, clip_s, ttc_s)
     if flies:
-        landing_s = clip_s + flies * TICK_S
-        return clip_pose(world, row, landing_s), planted_in_clip(world, row, landing_s), True
-    ahead_s = world.assets.settings.timing.sustained_ahead_s
-    return clip_pose(world, row, clip_s + ahead_s), planted_in_clip(world, row, clip_s), False
+        lands_s = clip_s + flies * TICK_S
+        landing = clip_pose(world, row, lands_s)
+        return AtPerception(now, landing, planted_in_clip(world, row, lands_s), True, turn_side)
+    ahead = clip_pose(world, row, clip_s + world.assets.settings.timing.sustained_ahead_s)
+    return AtPerception(now, ahead, planted_in_clip(world, row, clip_s), False, turn_side)
 
 
 def flight_ticks(world, row: int, clip_s: float, ttc_s: float) -> int:
@@ -101,12 +80,9 @@ class Defence(NamedTuple):
 
 def defend(world, row: int, threat: PerceivedThreat, clip_s: float, ttc_s: float) -> Defence:
     """The protective pose of a character as it is now."""
-    ahead, planted, landing = look_ahead(world, row, clip_s, ttc_s)
-    now, side = shown(world, row)[0], float(world[Character].turn_side[row])
-    return _defence(protect(
-        body_of(world, row), rounded_pose(now), rounded_pose(ahead), planted, rounded_threat(threat),
-        world.assets.settings, side, landing,
-    ))  # fmt: skip
+    at = at_perception(world, row, clip_s, ttc_s)
+    at = at._replace(now=rounded_pose(at.now), ahead=rounded_pose(at.ahead))
+    return _defence(protect(body_of(world, row), at, rounded_threat(threat), world.assets.settings))
 
 
 def _defence(found: Protection) -> Defence:

@@ -22,7 +22,7 @@ from behaviours.protect.mirroring import (
     mirror_task,
 )
 from behaviours.protect.prepare import prepare
-from behaviours.protect.task import Choices, FeetPlan, Posed, Task, new_posed
+from behaviours.protect.task import AtPerception, Choices, FeetPlan, Posed, Task, new_posed
 from behaviours.protect.total_error import (
     FORMS,
     RESIDUALS,
@@ -83,19 +83,9 @@ class Protection(NamedTuple):
     reference: Reference
 
 
-def protect(
-    body: Body,
-    pose_now: Pose,
-    pose_ahead: Pose,
-    planted,
-    threat: PerceivedThreat,
-    settings: Settings,
-    previous_turn_side: float = 0.0,
-    landing: bool = False,
-) -> Protection:
-    """The pose in which to meet a threat. Arguments as for `prepare`."""
-    task = prepare(body, pose_now, pose_ahead, planted, threat, settings, previous_turn_side, landing)
-    return solve_protection(body, task, settings)
+def protect(body: Body, at: AtPerception, threat: PerceivedThreat, settings: Settings) -> Protection:
+    """The pose in which to meet a threat."""
+    return solve_protection(body, prepare(body, at, threat, settings), settings)
 
 
 def solve_protection(body: Body, task: Task, settings: Settings) -> Protection:

@@ -13,11 +13,21 @@ from behaviours.perceive.perceived import PerceivedThreat, head_centre_m
 from behaviours.settings import Block, LeanTurn, Pelvis, Recoil, Wrap
 from engine.body.capsules import CAPSULES, body_capsules
 from engine.body.overlap import TRUNK
-from engine.body.skeleton import ANKLES, ELBOWS, JOINT_COUNT, KNEES, WRISTS, Body
+from engine.body.skeleton import ANKLES, ELBOWS, JOINT_COUNT, KNEES, WRISTS, Body, Pose
 from engine.maths.kernel import njit
 
 Triple = tuple[float, float, float]
 OBSTACLES = TRUNK
+
+
+class AtPerception(NamedTuple):
+    """How a character is when it perceives a threat. World poses."""
+
+    now: Pose
+    ahead: Pose  # the clip 1/6 s later, which the pelvis and a foot in the air are taken from; or its next landing
+    planted: np.ndarray  # (2,) bool: the feet that stand now; where `ahead` is a landing, those that stand there
+    landing: bool = False  # whether it is: the feet are held where that pose has them
+    turn_side: float = 0.0  # the side last turned to, kept when a threat comes from dead ahead
 
 
 class Bones(NamedTuple):

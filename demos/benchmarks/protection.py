@@ -52,6 +52,7 @@ def standing_task() -> tuple[Any, Any, np.ndarray, Any]:
     """Somebody standing straight, a volleyball at the head from the front left: task, reference, start, settings."""
     from behaviours.perceive.perceived import PerceivedThreat, aim_of
     from behaviours.protect.sustained import protect
+    from behaviours.protect.task import AtPerception
     from behaviours.settings import Settings
     from engine.body.anthropometry import standard_body
     from engine.body.skeleton import JOINT_COUNT, LEFT_ANKLE, LEFT_HIP, LEFT_KNEE, Pose
@@ -62,5 +63,5 @@ def standing_task() -> tuple[Any, Any, np.ndarray, Any]:
     travel = (-math.cos(math.radians(30)), -math.sin(math.radians(30)), 0.0)
     joint, offset_m = aim_of(body, "head")
     threat = PerceivedThreat(travel, travel, (0.0, 0.0, 1.6), joint, offset_m)
-    found = protect(body, standing, standing, np.array([True, True]), threat, settings)
+    found = protect(body, AtPerception(standing, standing, np.array([True, True])), threat, settings)
     return found.task, found.reference, np.concatenate([np.zeros(3), found.controls_initial]), settings

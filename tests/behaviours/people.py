@@ -9,6 +9,7 @@ import numpy as np
 from behaviours.perceive.perceived import PerceivedThreat, aim_of
 from behaviours.protect.prepare import aim_point, prepare
 from behaviours.protect.sustained import Protection, protect
+from behaviours.protect.task import AtPerception
 from behaviours.settings import Settings
 from engine.body.anthropometry import standard_body
 from engine.body.kinematics import joints_of
@@ -51,5 +52,6 @@ def met(threat: PerceivedThreat, *, body: Body = BODY, now: Pose | None = None, 
     """The protection against a threat, its line aimed at where the target will be."""
     now = standing(body) if now is None else now
     ahead = now if ahead is None else ahead
-    task = prepare(body, now, ahead, planted, threat, settings, **more)
-    return protect(body, now, ahead, planted, threat._replace(line_point_m=aim_point(task)), settings, **more)
+    at = AtPerception(now, ahead, planted, **more)
+    aim = aim_point(prepare(body, at, threat, settings))
+    return protect(body, at, threat._replace(line_point_m=aim), settings)

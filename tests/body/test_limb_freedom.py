@@ -7,7 +7,7 @@ import pytest
 
 from behaviours.protect.apply_rules import apply_rules
 from behaviours.protect.prepare import prepare
-from behaviours.protect.task import new_posed
+from behaviours.protect.task import AtPerception, new_posed
 from behaviours.rules.controls import controls_from_threat
 from behaviours.settings import Settings
 from engine.body import limb_freedom as freedom
@@ -33,7 +33,7 @@ def posed_with(task, controls):
 
 def task_with(**limits):
     """A task whose limits are drawn in at one joint: joint=(axis, low, high)."""
-    task = prepare(BODY, standing(), standing(), BOTH, coming(20), Settings())
+    task = prepare(BODY, AtPerception(standing(), standing(), BOTH), coming(20), Settings())
     for joint, (axis, low, high) in limits.items():
         task.start.low_rad[int(joint[1:]), axis], task.start.high_rad[int(joint[1:]), axis] = low, high
     return task

@@ -12,7 +12,7 @@ from behaviours.protect.exact_feet import EXACT, stand_exactly
 from behaviours.protect.fit_arms import fit_arms
 from behaviours.protect.guard import across_arm, put_palm, turned_about
 from behaviours.protect.prepare import aim_point, prepare
-from behaviours.protect.task import new_posed
+from behaviours.protect.task import AtPerception, new_posed
 from behaviours.rules.block import fingers_from_up
 from behaviours.rules.controls import controls_from_threat
 from behaviours.settings import Block, Settings
@@ -29,9 +29,9 @@ ARMS = [joint for joints in (CLAVICLES, SHOULDERS, ELBOWS, WRISTS) for joint in 
 
 def task_for(azimuth, size=0.5, speed=0.5, target="head", weights=(1.0, 0.0), elevation=5.0):
     threat = coming(azimuth, elevation, size=size, speed=speed, target=target, weights=weights)
-    task = prepare(BODY, standing(), standing(), BOTH, threat, Settings())
-    threat = threat._replace(line_point_m=aim_point(task))
-    return prepare(BODY, standing(), standing(), BOTH, threat, Settings()), controls_from_threat(speed, size)
+    at = AtPerception(standing(), standing(), BOTH)
+    threat = threat._replace(line_point_m=aim_point(prepare(BODY, at, threat, Settings())))
+    return prepare(BODY, at, threat, Settings()), controls_from_threat(speed, size)
 
 
 def fitted(task, controls):

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from behaviours.protect.prepare import prepare
+from behaviours.protect.task import AtPerception
 from behaviours.settings import Settings
 from engine.body.footing import leg_length_m
 from engine.body.kinematics import joints_of
@@ -67,7 +68,7 @@ def test_out_of_reach_it_goes_to_the_nearest_ground():
 
 def test_too_high_a_hip_leaves_the_foot_in_the_air():
     jump = moved(stepping(), (0.0, 0.0, 0.4))
-    task = prepare(BODY, jump, jump, [False, True], coming(10), Settings())
+    task = prepare(BODY, AtPerception(jump, jump, np.array([False, True])), coming(10), Settings())
     found = met(coming(10), now=jump, ahead=jump, planted=LEFT_UP)
     # the right foot is held in the air where it is; the left cannot reach the ground
     assert task.feet.held.tolist() == [False, True]
