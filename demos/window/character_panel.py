@@ -8,8 +8,11 @@ from behaviours.stance.shape_sets import SETS
 from engine.clips.library import list_clips
 
 if TYPE_CHECKING:
+    from behaviours.scenario_spec import StanceSpec
     from demos.window.session import Session
     from engine.render.ui.widgets import Ui
+
+OWN_SHAPE = "a shape of one's own"
 
 
 class CharacterPanel:
@@ -31,10 +34,7 @@ class CharacterPanel:
             return
         changes: dict = {}
         ui.heading("Stance, worn under everything it does")
-        stance: dict = {"set": ui.choice("Shape set", spec.stance.set, tuple(SETS))}
-        stance["intensity"] = ui.slider("Intensity", spec.stance.intensity, -1.0, 1.0, help="0: the clip as it is")
-        if stance != spec.stance.model_dump():
-            changes["stance"] = stance
+        _note(changes, "stance", spec.stance.model_dump(), _stance(ui, spec.stance))
         ui.heading("Temper")
         _note(changes, "boldness", spec.boldness, ui.slider(
             "Boldness", spec.boldness, -1.0, 1.0, help="-1 timid: takes threats for larger and faster, +1 bold"
@@ -53,6 +53,16 @@ class CharacterPanel:
         ))  # fmt: skip
         if changes:
             session.change_character(**changes)
+
+
+def _stance(ui: Ui, worn: StanceSpec) -> dict:
+    """The stance that is wanted: choosing a set takes the place of a shape of one's own."""
+    shown, sets = (OWN_SHAPE, (OWN_SHAPE, *SETS)) if worn.shape else (worn.set, tuple(SETS))
+    chosen = ui.choice("Shape set", shown, sets)
+    intensity = ui.slider("Intensity", worn.intensity, -1.0, 1.0, help="0: the clip as it is")
+    if chosen == shown:
+        return {**worn.model_dump(), "intensity": intensity}
+    return {"set": chosen, "intensity": intensity, "shape": None}
 
 
 def _note(changes: dict, key: str, old, wanted) -> None:

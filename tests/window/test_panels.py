@@ -5,9 +5,10 @@ import pytest
 from behaviours.overriding import constants
 from behaviours.perceive.threats import KINDS
 from behaviours.scenario import check_scenario
-from behaviours.scenario_spec import BODY_TARGETS, Scenario
+from behaviours.scenario_spec import BODY_TARGETS, Scenario, StanceSpec
 from behaviours.settings import Settings
 from behaviours.simulation import flat_settings
+from demos.window.character_panel import OWN_SHAPE
 from demos.window.clips_panel import ClipsPanel, Row, matches
 from demos.window.constants import knobs
 from demos.window.help import ACTIONS, GROUPS
@@ -36,6 +37,7 @@ def use(session, title, **wanted):
 def test_looking_at_a_panel_changes_nothing(session, title):
     before = (session.scenario, vars(session.threat).copy(), session.world.digest())
     ui = use(session, title)
+    assert session.run.scenario is session.scenario  # nothing is run again
     session.advance(0.0)
     assert ui.seen
     assert (session.scenario, vars(session.threat), session.world.digest()) == before
@@ -81,6 +83,19 @@ def test_the_character_is_changed(session):
     spec = session.run.scenario.character[0]
     assert (spec.boldness, spec.response_s, spec.recover, spec.startle) == (0.7, 0.1, "auto", False)
     assert spec.stance.intensity == 0.5
+
+
+def test_a_shape_of_its_own_is_worn_on_until_a_set_is_chosen(session):
+    session.change_character(stance={"intensity": 0.5, "shape": {"knee_left_rad": 0.4}})
+    session.advance(0.0)
+    before = session.scenario
+    ui = use(session, "Character")
+    assert session.scenario is before
+    assert ui.seen["Shape set"] == OWN_SHAPE
+    use(session, "Character", Intensity=0.75)
+    assert session.character.stance == StanceSpec(intensity=0.75, shape={"knee_left_rad": 0.4})
+    use(session, "Character", Shape_set="interest")
+    assert session.character.stance == StanceSpec(set="interest", intensity=0.75)
 
 
 def test_every_constant_is_in_one_panel_and_can_be_turned(session):
