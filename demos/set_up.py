@@ -14,7 +14,7 @@ from collections.abc import Iterable
 from typing import Any
 
 from demos.cli import guarded
-from demos.kernels import ROOT, forget_stale, on_compiling, terminal_line
+from demos.kernels import ROOT, forget_stale, get_kernels_ready, on_compiling, terminal_line
 from engine.core.errors import BraceError
 
 
@@ -58,9 +58,12 @@ def compile_kernels() -> None:
 
 
 def compile_what_changed() -> None:
-    """After an update or an edit of the sources, before a window opens: it would stand still meanwhile, in silence."""
+    """After an update or an edit of the sources, before a window opens: it would stand still meanwhile. Of what is
+    compiled later the terminal tells.
+    """
     if forget_stale():
         compile_kernels()
+    get_kernels_ready()
 
 
 def _compile_later() -> subprocess.Popen:

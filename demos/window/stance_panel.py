@@ -33,6 +33,8 @@ STANCE: Colour = (0.62, 0.70, 0.80)
 DOT_COLOURS = {"object_m": (0.85, 0.12, 0.10), "reach_left_m": (0.13, 0.46, 0.38), "reach_right_m": (0.13, 0.46, 0.38)}
 DOT_M, GRIP_M = 0.045, 0.10  # radius of a dot, and how near to it the cursor has to look to grip it
 BESIDE_M = 1.2  # to the right of the character, as it is seen
+# shown while the first stance is worked out: its code is loaded, and right after set-up perhaps still to be compiled
+FIRST = "Getting ready, once: a second, or right after set-up up to a minute."
 LABELS = {"solve_abdomen": "Abdomen helps", "collar_y": "Collars, Y", "collar_z": "Collars, Z"}
 
 
@@ -46,10 +48,15 @@ class StancePanel:
         self.file = ""
         self._gripped: str | None = None
         self._place: tuple[np.ndarray, float] | None = None  # where it stands (2,), and its heading
+        self._announced = False
 
     # --- widgets -------------------------------------------------------------------------------------------------
 
     def draw(self, ui: Ui, session: Session) -> None:
+        if not self._announced:
+            self._announced = True
+            ui.text(FIRST)
+            return
         self._stand_beside(session)
         self._draw_above(ui)
         self._draw_report(ui, session)
@@ -178,6 +185,8 @@ class StancePanel:
 
     def drawn_into(self, scene: Scene, session: Session) -> None:
         """The stance, its balance, and a dot for each point."""
+        if not self._announced:
+            return
         self._stand_beside(session)
         result, body = self.desk.solve(session.body), session.body
         turn = self._turn()

@@ -29,6 +29,7 @@ def session(tmp_path) -> Session:
 
 def use(session, title, **wanted):
     ui = HandUi(**wanted)
+    PANELS[title].draw(HandUi(), session)  # some say first that they get ready
     PANELS[title].draw(ui, session)
     return ui
 

@@ -15,7 +15,7 @@ from behaviours.stance.shape_sets import SETS
 from behaviours.stance.solve import solve_stance
 from demos.window.session import Session
 from demos.window.stance_desk import POINTS, StanceDesk, in_groups
-from demos.window.stance_panel import StancePanel
+from demos.window.stance_panel import FIRST, StancePanel
 from engine.body.anthropometry import standard_body
 from engine.body.skeleton import WRISTS
 from engine.render.camera import orbit_camera, project
@@ -34,14 +34,29 @@ def session(tmp_path) -> Session:
 
 
 @pytest.fixture
-def panel() -> StancePanel:
-    return StancePanel()
+def panel(session) -> StancePanel:
+    return opened(session)
+
+
+def opened(session) -> StancePanel:
+    """A panel that has said that it gets ready."""
+    panel = StancePanel()
+    assert use(panel, session).said == [FIRST]
+    return panel
 
 
 def use(panel, session, **wanted) -> HandUi:
     ui = HandUi(**wanted)
     panel.draw(ui, session)
     return ui
+
+
+def test_nothing_is_solved_before_it_is_seen_why_that_takes_long(session, monkeypatch):
+    monkeypatch.setattr(StanceDesk, "solve", lambda *_: pytest.fail("solved"))
+    panel, scene = StancePanel(), Scene()
+    panel.drawn_into(scene, session)
+    assert not scene.figures
+    assert use(panel, session).said == [FIRST]
 
 
 def test_every_number_stands_in_one_group_and_every_state_on_the_panel(panel, session):
@@ -88,7 +103,7 @@ def test_a_shape_is_saved_loaded_and_shown_by_the_command(panel, session, tmp_pa
     use(panel, session, Save_shape=True)
     path = tmp_path / "stance-1.toml"
     assert tomllib.loads(path.read_text())["numbers"]["gaze"] == 0.3
-    other = StancePanel()
+    other = opened(session)
     use(other, session, Shape_file="stance-1.toml")
     use(other, session, Load_shape=True)
     poses = [p.desk.solve(session.body).pose.rotations for p in (panel, other)]
