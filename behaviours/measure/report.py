@@ -13,9 +13,17 @@ REACTED = (Phase.STARTLE, Phase.PROTECT, Phase.HOLD, Phase.RESPOND, Phase.DOWN) 
 
 
 def event_rows(world) -> list[dict[str, Any]]:
-    """Every event as plain data, in order."""
+    """Every event as plain data, in order; `character`: which of the scenario's it happened to, or was meant for."""
+    numbers = {world.entity(row): number for number, row in enumerate(world.assets.character_rows)}
     return [
-        {"t_s": event.tick * TICK_S, "kind": event.kind, "entity": event.entity, **event.data} for event in world.events
+        {
+            "t_s": event.tick * TICK_S,
+            "kind": event.kind,
+            "entity": event.entity,
+            "character": numbers.get(event.entity, numbers.get(event.data.get("at"))),
+            **event.data,
+        }
+        for event in world.events
     ]
 
 

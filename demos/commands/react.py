@@ -9,7 +9,8 @@ from demos.commands.arguments import add_scenario
 from demos.output import print_json, say
 from engine.core.files import check_output
 
-UNSAID = ("t_s", "kind", "entity", "at", "ball", "threat")  # said already, or handles that mean nothing to people
+# said already, or handles that mean nothing to people
+UNSAID = ("t_s", "kind", "entity", "character", "at", "ball", "threat")
 
 
 def register(subparsers) -> None:
@@ -48,15 +49,20 @@ def run(args: argparse.Namespace) -> None:
 
 
 def report_lines(report: dict[str, Any]) -> list[str]:
-    """The same report for people: what happened when, the phases, the measures."""
-    lines = ["events"]
+    """The same report for people: what happened when, and to whom if there are several; the phases, the measures."""
+    characters = report.get("characters", [report])
+    several = len(characters) > 1
+    lines = ["events, and which character" if several else "events"]
     for event in report["events"]:
         rest = ", ".join(f"{key} {_short(value)}" for key, value in event.items() if key not in UNSAID)
-        lines.append(f"  {event['t_s']:7.3f} s  {event['kind']:<12} {rest}".rstrip())
-    lines.append("phases")
-    lines += [f"  {phase['from_s']:7.3f} - {phase['to_s']:7.3f} s  {phase['name']}" for phase in report["phases"]]
-    lines.append("measures")
-    lines += [f"  {name:<32} {_short(value)}" for name, value in report["metrics"].items()]
+        who = f"{_short(event['character']):>3}  " if several else ""
+        lines.append(f"  {event['t_s']:7.3f} s  {who}{event['kind']:<12} {rest}".rstrip())
+    for number, account in enumerate(characters):
+        of = f" of character {number}" if several else ""
+        lines.append(f"phases{of}")
+        lines += [f"  {phase['from_s']:7.3f} - {phase['to_s']:7.3f} s  {phase['name']}" for phase in account["phases"]]
+        lines.append(f"measures{of}")
+        lines += [f"  {name:<32} {_short(value)}" for name, value in account["metrics"].items()]
     return [*lines, f"{report['ticks']} ticks, digest {report['digest']}"]
 
 

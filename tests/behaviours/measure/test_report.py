@@ -12,6 +12,7 @@ from behaviours.measure.observing import Track
 from behaviours.measure.report import phase_rows, recovered_to
 from behaviours.scenario import check_scenario
 from behaviours.simulation import Simulation
+from demos.commands.react import report_lines
 from engine.clips.library import find_clip
 from tests.behaviours.people import BODY
 from tests.behaviours.runs import AHEAD, run, simulation_of
@@ -102,6 +103,14 @@ def test_two_people_have_an_account_each():
     assert first["metrics"] == report["metrics"]
     assert first["metrics"]["ttc_s"] is None
     assert second["metrics"]["ttc_s"] > 0.2
+    whose = {event["kind"]: event["character"] for event in report["events"]}
+    assert whose["launched"] == whose["perceived"] == 1
+    lines = report_lines(report)
+    told = [line.split() for line in lines if "perceived" in line]
+    assert [words[2] for words in told] == ["1"]
+    assert [line for line in lines if line.startswith("measures")] == [
+        "measures of character 0", "measures of character 1",
+    ]  # fmt: skip
 
 
 def test_only_what_was_watched_can_be_told():
