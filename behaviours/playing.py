@@ -9,6 +9,7 @@ from behaviours.placing import placed
 from behaviours.timing import TICK_S
 from behaviours.wearing import worn_pose
 from engine.body.capsules import Capsules
+from engine.body.kinematics import joints_of
 from engine.body.skeleton import PELVIS, Body, Pose
 from engine.clips.clip import Clip
 from engine.clips.playback import planted_at, sample
@@ -18,6 +19,12 @@ from engine.maths import quaternion
 def body_of(world, row: int) -> Body:
     """The body of the character in a row."""
     return world.assets.bodies[int(world[Character].body[row])]
+
+
+def joint_frames(world, row: int) -> tuple[np.ndarray, np.ndarray]:
+    """Where the joints of the character in a row are (J, 3), and how they are turned (J, 4) w x y z, in the world."""
+    p = world[Posture]
+    return joints_of(body_of(world, row), Pose(p.root_m[row], p.rotations[row]))
 
 
 def capsules_of(world, row: int) -> Capsules:

@@ -38,7 +38,7 @@ from behaviours.placing import placed
 from behaviours.reaction import advance_reactions, notice
 from behaviours.recover.getting_up import get_up
 from behaviours.recover.going_on import go_on
-from behaviours.recover.library import FindClip, gather_libraries
+from behaviours.recover.library import FindClip, clip_for, gather_libraries
 from behaviours.recover.search import Library
 from behaviours.respond.contact import meet_balls
 from behaviours.respond.response import step_bodies
@@ -200,7 +200,10 @@ def apply_command(world: World, command: Command) -> None:
 class Simulation:
     """A world and its schedule, to be stepped; with `observe`, watched for the report."""
 
-    def __init__(self, scenario: Scenario, find: FindClip, *, observe: bool = False, checked: bool = False):
+    def __init__(self, scenario: Scenario, find: FindClip = clip_for, *, observe: bool = False, checked: bool = False):
+        """find: brings the clip of a character; checked: systems may touch only what they declare. BadInput or
+        EnvironmentTrouble where a clip cannot be had.
+        """
         self.scenario = scenario
         self.commands: dict[int, list[Command]] = {}
         for given in scenario.command:

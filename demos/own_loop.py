@@ -5,15 +5,13 @@
 
 import sys
 
-from behaviours.components import Phase, Posture, Reaction
+from behaviours.components import Phase, Reaction
 from behaviours.launching import place_of, velocity_towards
-from behaviours.playing import body_of
+from behaviours.playing import joint_frames
 from behaviours.scenario import check_scenario
 from behaviours.simulation import Simulation, apply_command
 from demos.cli import guarded
-from engine.body.kinematics import joints_of
-from engine.body.skeleton import HEAD, Pose
-from engine.clips.library import find_clip
+from engine.body.skeleton import HEAD
 from engine.core.clock import TICK_RATE_HZ
 
 FPS, LASTS_S = 60, 3.0
@@ -23,7 +21,7 @@ FROM_M, SPEED_MPS = (4.0, 1.5, 1.6), 14.0
 
 def main() -> None:
     scenario = check_scenario({"character": [{"clip": "sway", "boldness": -0.3}]})
-    simulation = Simulation(scenario, lambda character: find_clip(character.clip))
+    simulation = Simulation(scenario)
     world = simulation.world
     (row,) = world.assets.character_rows
 
@@ -42,8 +40,7 @@ def main() -> None:
             simulation.step()
 
         # what a renderer needs: where every joint is (21, 3) and how it is turned (21, 4), w x y z, in the world
-        posture, body = world[Posture], body_of(world, row)
-        joints_m, turned = joints_of(body, Pose(posture.root_m[row], posture.rotations[row]))
+        joints_m, turned = joint_frames(world, row)
         if frame % 15 == 0:
             phase = Phase(int(world[Reaction].phase[row])).name.lower()
             print(f"frame {frame:3}  {phase:15}  head at {joints_m[HEAD].round(2)} m, turned {turned[HEAD].round(2)}")

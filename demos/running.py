@@ -6,17 +6,16 @@ import importlib
 import re
 import sys
 from collections.abc import Iterable, Sequence
+from functools import partial
 from pathlib import Path
 from typing import Any, TypeVar
 
-from behaviours.recover.library import library_names
+from behaviours.recover.library import clip_for, library_names
 from behaviours.scenario import check_scenario, load_scenario, parse_scenario
-from behaviours.scenario_spec import CharacterSpec, Scenario
+from behaviours.scenario_spec import Scenario
 from behaviours.simulation import Simulation, apply_command
 from demos.kernels import get_kernels_ready
 from demos.scenarios import FOLDER, PROGRAMS, find_scenario
-from engine.clips.clip import Clip
-from engine.clips.library import find_clip
 from engine.core.errors import BadInput
 from engine.core.journal import Journal
 from engine.core.recorder import Recorder, new_journal, replay
@@ -53,11 +52,7 @@ def with_clips_from_here(overrides: Sequence[str], folder: Path) -> list[str]:
 def start(scenario: Scenario, folder: Path, observe: bool = False) -> Simulation:
     """The scenario at its first tick, with kernels that match their sources; with `observe`, able to report."""
     get_kernels_ready()
-
-    def find(spec: CharacterSpec) -> Clip:
-        return find_clip(spec.clip, relative_to=folder, sex=spec.sex, body_mass_kg=spec.mass_kg)
-
-    return Simulation(scenario, find, observe=observe)
+    return Simulation(scenario, partial(clip_for, relative_to=folder), observe=observe)
 
 
 def journal_of(simulation: Simulation, folder: Path) -> Journal:

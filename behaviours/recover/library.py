@@ -7,17 +7,25 @@ library is what may be a get-up, and without any nothing here is done, or import
 from __future__ import annotations
 
 from collections.abc import Callable
+from pathlib import Path
 from typing import TYPE_CHECKING
 
 from behaviours.scenario_spec import CharacterSpec, Scenario
 from behaviours.settings import Settings
 from engine.clips.clip import Clip
-from engine.clips.library import list_clips
+from engine.clips.library import find_clip, list_clips
 
 if TYPE_CHECKING:
     from behaviours.recover.search import Library
 
 FindClip = Callable[[CharacterSpec], Clip]
+
+
+def clip_for(spec: CharacterSpec, relative_to: str | Path | None = None) -> Clip:
+    """The clip that a scenario's character plays, on a body of its sex and mass; a relative path counts from the folder
+    `relative_to`, else from here. BadInput or EnvironmentTrouble where there is no such clip.
+    """
+    return find_clip(spec.clip, relative_to, sex=spec.sex, body_mass_kg=spec.mass_kg)
 
 
 def library_names(scenario: Scenario) -> tuple[str, ...]:

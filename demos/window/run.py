@@ -5,12 +5,12 @@ from __future__ import annotations
 from collections.abc import Callable
 from pathlib import Path
 
+from behaviours.recover.library import clip_for
 from behaviours.scenario_spec import CharacterSpec, Scenario
 from behaviours.simulation import Simulation, apply_command
 from demos.running import journal_of
 from demos.window.history import History
 from engine.clips.clip import Clip
-from engine.clips.library import find_clip
 from engine.core.clock import ticks
 from engine.core.journal import Command
 from engine.core.timeline import Timeline
@@ -29,9 +29,7 @@ class ClipBox:
         """BadInput or EnvironmentTrouble where there is no such clip."""
         key = (spec.clip, spec.sex, spec.mass_kg)
         if key not in self._kept:
-            self._kept[key] = find_clip(
-                spec.clip, relative_to=self.folder, sex=spec.sex, body_mass_kg=spec.mass_kg
-            )  # fmt: skip
+            self._kept[key] = clip_for(spec, self.folder)
         return self._kept[key]
 
 

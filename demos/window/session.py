@@ -15,8 +15,8 @@ from typing import Any
 
 import numpy as np
 
-from behaviours.components import Character, Phase, Posture, Reaction
-from behaviours.playing import body_of
+from behaviours.components import Character, Phase, Reaction
+from behaviours.playing import body_of, joint_frames
 from behaviours.scenario import check_scenario
 from behaviours.scenario_spec import CharacterSpec, Scenario
 from behaviours.simulation import flat_settings
@@ -30,8 +30,7 @@ from demos.window.threat_draft import ThreatDraft, draft_of
 from demos.window.throwing import thrown
 from demos.window.toasts import Toasts
 from demos.window.view import View
-from engine.body.kinematics import joints_of
-from engine.body.skeleton import Body, Pose
+from engine.body.skeleton import Body
 from engine.core.clock import TICK_RATE_HZ, Clock
 from engine.core.errors import BraceError
 from engine.core.journal import Command
@@ -125,8 +124,7 @@ class Session:
 
     def frames(self, row: int) -> tuple[np.ndarray, np.ndarray]:
         """Where the joints of a character are now (J, 3), and how they are turned (J, 4), world."""
-        p = self.world[Posture]
-        return joints_of(body_of(self.world, row), Pose(p.root_m[row], p.rotations[row]))
+        return joint_frames(self.world, row)
 
     def joints_m(self, row: int) -> np.ndarray:
         """(J, 3) where the joints of a character are now, world."""

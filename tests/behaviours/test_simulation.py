@@ -10,8 +10,10 @@ import numba
 import numpy as np
 import pytest
 
-from behaviours.components import Blow, Flight, Phase, Reaction, Threat
-from behaviours.simulation import apply_command
+from behaviours.components import Blow, Flight, Phase, Posture, Reaction, Threat
+from behaviours.playing import joint_frames
+from behaviours.scenario import check_scenario
+from behaviours.simulation import Simulation, apply_command
 from engine.clips.library import find_clip
 from engine.clips.mirror import mirror_clip
 from engine.core.errors import BadInput
@@ -231,3 +233,12 @@ def test_two_people_and_two_balls_mind_their_own():
     ) == pytest.approx(6, abs=0.6)
     assert Phase(int(simulation.world[Reaction].phase[0])).name
     assert simulation.world[Threat].spent[simulation.world.rows(Threat)].all()
+
+
+def test_without_more_a_character_gets_the_clip_and_the_mass_that_it_says():
+    simulation = Simulation(check_scenario({"character": [{"clip": "sway", "mass_kg": 93.0}]}))
+    (body,) = simulation.world.assets.bodies
+    assert body.part_mass_kg.sum() == pytest.approx(93.0)
+    joints_m, turned = joint_frames(simulation.world, 0)
+    assert np.array_equal(joints_m[0], simulation.world[Posture].root_m[0])
+    assert np.allclose(np.linalg.norm(turned, axis=1), 1.0, atol=1e-12)

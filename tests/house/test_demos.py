@@ -1,6 +1,7 @@
 """The demos, each run as a newcomer runs it."""
 
 import json
+import re
 import subprocess
 import sys
 
@@ -37,6 +38,14 @@ def test_everyone_in_a_crowd_protects_themselves(capsys, library_clip):
     struck = {event["entity"] for event in report["events"] if event["kind"] == "contact"}
     assert len(perceived) == crowd.PEOPLE
     assert len(struck) >= crowd.PEOPLE - 1  # somebody may step aside
+
+
+def test_the_front_pages_program_runs_as_it_stands(library_clip):
+    library_clip("walk")
+    (program,) = re.findall(r"```python\n(.*?)```", (ROOT / "README.md").read_text(encoding="utf-8"), re.DOTALL)
+    done = subprocess.run([sys.executable, "-c", program], cwd=ROOT, capture_output=True, text=True)
+    assert done.returncode == 0, done.stderr
+    assert "'first_contact': 'left_hand'" in done.stdout
 
 
 def test_the_walker_meets_every_ball_and_walks_on(capsys, library_clip):

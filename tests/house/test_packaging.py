@@ -28,6 +28,7 @@ def test_every_source_is_in_it_and_nothing_else(wheel):
     assert inside == {path.as_posix() for path in files if "__pycache__" not in path.parts}
     assert any(name.startswith("shaders/") and not name.endswith(".py") for name in inside)
     assert "demos/scenarios/volleyball.toml" in inside
+    assert {f"{room}/py.typed" for room in ROOMS} <= inside  # else its users' type checkers pass it over
 
 
 def test_it_carries_its_licence_and_its_command(wheel):
