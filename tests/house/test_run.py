@@ -20,7 +20,7 @@ case "$*" in
 *realpath*) echo "{bin}/python3" ;;
 "-m venv"*) mkdir -p "$4/bin" && cp "{bin}/python3" "$4/bin/python" ;;
 *ensurepip*) exit 0 ;;
-*"pip install"*) echo "pip $*" >>"{bin}/calls"; exit {pip_exit} ;;
+*"pip install"*) echo "pip $*" >>"{bin}/calls"; echo "{pip_says}" >&2; exit {pip_exit} ;;
 -) cat >/dev/null ;;
 *demos.set_up*) shift 3; echo "set_up $*" >>"{bin}/calls" ;;
 *demos.cli*) echo "cwd=$PWD path=$PYTHONPATH cache=$BRACE_CACHE"; for word in "$@"; do echo "<$word>"; done; exit 7 ;;
@@ -32,7 +32,7 @@ esac
 class Checkout:
     """A copy of what the script needs, in a folder with a blank in its name, and a PATH with stand-ins."""
 
-    def __init__(self, folder, version="3.11", pip_exit=0):
+    def __init__(self, folder, version="3.11", pip_exit=0, pip_says=""):
         self.root = folder / "a checkout"
         self.root.mkdir()
         for name in FILES:
@@ -42,16 +42,30 @@ class Checkout:
         self.home.mkdir()
         self.bin = folder / "bin"
         self.bin.mkdir()
-        for tool in ("sh", "cat", "cksum", "dirname", "mkdir", "rm", "ls", "head", "cp", "id", "flock", "touch"):
+        for tool in (
+            "sh",
+            "cat",
+            "cksum",
+            "dirname",
+            "mkdir",
+            "rm",
+            "ls",
+            "head",
+            "cp",
+            "id",
+            "flock",
+            "touch",
+            "tail",
+        ):
             found = shutil.which(tool)
             if found:
                 (self.bin / tool).symlink_to(found)
         if version:
-            self.stand_in(version, pip_exit)
+            self.stand_in(version, pip_exit, pip_says)
 
-    def stand_in(self, version="3.11", pip_exit=0):
+    def stand_in(self, version="3.11", pip_exit=0, pip_says=""):
         python = self.bin / "python3"
-        python.write_text(STAND_IN.format(version=version, bin=self.bin, pip_exit=pip_exit))
+        python.write_text(STAND_IN.format(version=version, bin=self.bin, pip_exit=pip_exit, pip_says=pip_says))
         python.chmod(python.stat().st_mode | stat.S_IXUSR)
 
     def run(self, *words, shell="sh", cwd=None, **environment):
@@ -128,6 +142,14 @@ def test_tests_add_their_own_packages_once(checkout):
     pips = [call for call in checkout.calls if call.startswith("pip")]
     assert len(pips) == 2
     assert pips[1].endswith("requirements-dev.lock")
+
+
+def test_a_full_disk_is_not_called_a_missing_network(tmp_path):
+    checkout = Checkout(tmp_path, pip_exit=1, pip_says="ERROR: [Errno 28] No space left on device")
+    done = checkout.run("react")
+    assert done.returncode == 3
+    (line,) = [line for line in done.stderr.splitlines() if line.startswith("error")]
+    assert line.startswith("error[disk-full]: no room for the packages of requirements.lock")
 
 
 def test_an_interrupted_set_up_is_resumed(tmp_path):
