@@ -15,6 +15,7 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
 ROOMS = ("engine", "behaviours", "demos")
+WITH_KERNELS = ("engine/maths", "engine/body", "engine/clips", "engine/physics", "behaviours")  # what ticks run
 _IMPORT = re.compile(r"^(?:from[ ]+([\w.]+)[ ]+import[ ]+(?:\(([^)]*)\)|(.*))|import[ ]+([\w.]+))", re.MULTILINE)
 
 
@@ -41,6 +42,11 @@ def forget_stale(root: Path = ROOT) -> list[str]:
                     file.unlink(missing_ok=True)
                     file.with_name(re.sub(r"\.\d+\.nbc$", ".nbi", file.name)).unlink(missing_ok=True)
     return stale
+
+
+def newest_kernel_source_s(root: Path = ROOT) -> float:
+    """When what ticks run was last edited, seconds as files have them."""
+    return max(path.stat().st_mtime for room in WITH_KERNELS for path in (root / room).rglob("*.py"))
 
 
 def _compiled_beside(source: Path) -> dict[Path, int]:

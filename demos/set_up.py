@@ -10,11 +10,14 @@ import os
 import subprocess
 import sys
 import time
+import zlib
 from collections.abc import Iterable
+from pathlib import Path
 from typing import Any
 
 from demos.cli import guarded
-from demos.kernels import ROOT, forget_stale, get_kernels_ready, on_compiling, terminal_line
+from demos.kernels import ROOT, get_kernels_ready, newest_kernel_source_s, on_compiling, terminal_line
+from engine.clips.cache import cache_folder
 from engine.core.errors import BraceError
 
 
@@ -48,22 +51,44 @@ def compile_kernels() -> None:
     begun = time.monotonic()
     _say("compiling kernels, once")
     _tidy_seldom()
+    before_s = time.time()
     count = _compile_parts() if len(os.sched_getaffinity(0)) > 1 else 0
     compiled: list[str] = []
     on_compiling(lambda name: compiled.append(name) if name else None)
     _run("sway")
     _say(f"{count + len(compiled)} kernels compiled in {time.monotonic() - begun:.0f} s")
+    _date_mark(before_s)  # what was edited meanwhile counts as new
     if count + len(compiled):
         _compile_later()
 
 
 def compile_what_changed() -> None:
-    """After an update or an edit of the sources, before a window opens: it would stand still meanwhile. Of what is
-    compiled later the terminal tells.
+    """After an update or an edit of sources that hold kernels, before a window opens: it would stand still meanwhile.
+    Of what is compiled later the terminal tells.
     """
-    if forget_stale():
-        compile_kernels()
     get_kernels_ready()
+    mark = _mark()
+    if not mark.exists() and not _date_mark(0.0):
+        return  # where nothing can be remembered, every window would wait
+    if newest_kernel_source_s() > mark.stat().st_mtime:
+        compile_kernels()
+
+
+def _mark() -> Path:
+    """The file in the cache whose date is that of the last compilation of this tree by this Python."""
+    return cache_folder() / f"kernels-{zlib.crc32(f'{ROOT} {sys.version}'.encode()):08x}"
+
+
+def _date_mark(date_s: float) -> bool:
+    """Whether it could be written."""
+    mark = _mark()
+    try:
+        mark.parent.mkdir(parents=True, exist_ok=True)
+        mark.touch()
+        os.utime(mark, (date_s, date_s))
+    except OSError:
+        return False
+    return True
 
 
 def _compile_later() -> subprocess.Popen:

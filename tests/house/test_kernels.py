@@ -6,7 +6,7 @@ import re
 
 import pytest
 
-from demos.kernels import forget_stale
+from demos.kernels import forget_stale, newest_kernel_source_s
 from tests.conftest import ROOT
 
 SOURCES = {
@@ -45,6 +45,12 @@ def kept(tree):
 def test_nothing_is_thrown_away_without_an_edit(tree):
     assert forget_stale(tree) == []
     assert kept(tree) == {"vector", "arm", "block", "lean"}
+
+
+def test_only_edits_of_what_ticks_run_make_a_window_wait(tree):
+    date(tree / "engine/maths/vector.py", 300)
+    (tree / "demos/panel.py").touch()
+    assert newest_kernel_source_s(tree) == 300
 
 
 def test_an_edit_reaches_all_that_import_it_however_indirectly(tree):

@@ -3,6 +3,7 @@
 import os
 import subprocess
 import sys
+import time
 
 import numpy as np
 import pytest
@@ -62,8 +63,9 @@ def test_what_no_first_picture_needs_is_compiled_behind_it(monkeypatch, tmp_path
 
 
 @pytest.mark.parametrize(("in_parts", "later"), [(0, 0), (7, 1)])
-def test_nothing_goes_on_behind_where_nothing_was_to_compile(monkeypatch, in_parts, later):
+def test_nothing_goes_on_behind_where_nothing_was_to_compile(monkeypatch, tmp_path, in_parts, later):
     begun = []
+    monkeypatch.setenv("BRACE_CACHE", str(tmp_path))
     monkeypatch.setattr(set_up, "_compile_parts", lambda: in_parts)
     monkeypatch.setattr(set_up, "_run", lambda scenario: None)
     monkeypatch.setattr(set_up, "_tidy_seldom", lambda: None)
@@ -74,13 +76,45 @@ def test_nothing_goes_on_behind_where_nothing_was_to_compile(monkeypatch, in_par
     assert len(begun) == later
 
 
-@pytest.mark.parametrize(("stale", "compiled"), [([], 0), (["engine/maths/vector.py"], 1)])
-def test_what_an_update_changed_is_compiled_before_a_window_opens(monkeypatch, stale, compiled):
+@pytest.fixture
+def begun(monkeypatch, tmp_path):
+    """Begun compilations are counted here, and remembered in a cache of our own; nothing is compiled."""
+    monkeypatch.setenv("BRACE_CACHE", str(tmp_path / "cache"))
+    monkeypatch.setattr(set_up, "get_kernels_ready", lambda: None)
+    monkeypatch.setattr(set_up, "newest_kernel_source_s", lambda: 1000.0)
     begun = []
-    monkeypatch.setattr(set_up, "forget_stale", lambda: stale)
-    monkeypatch.setattr(set_up, "compile_kernels", lambda: begun.append(1))
+    monkeypatch.setattr(set_up, "compile_kernels", lambda: begun.append(set_up._date_mark(1001.0)))
+    return begun
+
+
+def test_kernels_are_compiled_before_the_first_window_and_after_every_update(begun, monkeypatch):
+    """Also one that brought new files, beside which no kernel can be stale."""
+    for _ in range(2):
+        set_up.compile_what_changed()
+        assert begun == [True]
+    monkeypatch.setattr(set_up, "newest_kernel_source_s", lambda: 1002.0)
     set_up.compile_what_changed()
-    assert len(begun) == compiled
+    assert begun == [True, True]
+
+
+def test_no_window_waits_where_nothing_can_be_remembered(begun, monkeypatch, tmp_path):
+    (tmp_path / "file").touch()
+    monkeypatch.setenv("BRACE_CACHE", str(tmp_path / "file" / "cache"))
+    set_up.compile_what_changed()
+    assert begun == []
+
+
+def test_compiling_is_remembered_from_when_it_began(monkeypatch, tmp_path):
+    """What is edited while it goes on is not in it."""
+    monkeypatch.setenv("BRACE_CACHE", str(tmp_path))
+    monkeypatch.setattr(set_up, "_compile_parts", lambda: 0)
+    monkeypatch.setattr(set_up, "_tidy_seldom", lambda: None)
+    monkeypatch.setattr(set_up, "on_compiling", lambda tell: None)
+    ended = []
+    monkeypatch.setattr(set_up, "_run", lambda scenario: (time.sleep(0.05), ended.append(time.time())))
+    set_up.compile_kernels()
+    (mark,) = tmp_path.iterdir()
+    assert 0.0 < ended[0] - mark.stat().st_mtime < 60.0
 
 
 def test_parts_are_found_from_any_folder(monkeypatch, tmp_path):
