@@ -92,6 +92,9 @@ def _prepare_process() -> None:
     """What must be so before the first heavy import, whatever the machine's locale."""
     # with another busy process the OpenMP layer's median rose from 0.26 to 16 ms
     os.environ.setdefault("NUMBA_THREADING_LAYER", "workqueue")
+    for name in ("stdout", "stderr"):
+        if getattr(sys, name) is None:  # closed by whoever called: `>&-`
+            setattr(sys, name, open(os.devnull, "w"))  # noqa: SIM115  # for as long as the process lives
     for stream in (sys.stdout, sys.stderr):
         if hasattr(stream, "reconfigure"):
             stream.reconfigure(errors="backslashreplace")

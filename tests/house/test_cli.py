@@ -138,3 +138,10 @@ def test_an_unwritable_locale_does_not_break_words():
 def test_an_unknown_benchmark_names_its_neighbours(capsys):
     assert main(["bench", "kinematic"]) == 2
     assert "expected one of kinematics, " in capsys.readouterr().err
+
+
+@pytest.mark.parametrize("closed", [">&-", ">&- 2>&-"])
+def test_streams_that_were_closed_are_no_trouble(closed):
+    """As a scheduler may start a program."""
+    words = f'"{sys.executable}" -m demos.cli clips list {closed}'
+    assert subprocess.run(["sh", "-c", words], cwd=ROOT, check=False).returncode == 0
