@@ -24,6 +24,12 @@ class Rerun:
     def going(self) -> bool:
         return self._run is not None
 
+    def share(self, shown: Run) -> float:
+        """How much of it is done, 0 to 1."""
+        if self._run is None:
+            return 0.0
+        return min(self._run.world.tick / max(shown.last_tick, 1), 1.0)
+
     def want(self, scenario: Scenario, inputs: Inputs) -> None:
         """Instead of whatever was wanted before; what is on its way already comes first, and is then replaced."""
         self._wanted = (scenario, inputs)

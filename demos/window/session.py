@@ -117,6 +117,11 @@ class Session:
         """Whether a changed scenario is still being run."""
         return self._rerun.going
 
+    @property
+    def rerun_share(self) -> float:
+        """How far it has come, 0 to 1."""
+        return self._rerun.share(self.run)
+
     def centre_m(self) -> np.ndarray:
         """What the camera keeps up with: the selected character, at chest height."""
         x, y, _ = pelvis_m(self.world, self.row)

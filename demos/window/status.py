@@ -44,7 +44,7 @@ def states(play: Play) -> list[str]:
     if session.tick < session.run.last_tick:
         words.append("replay")
     if session.busy:
-        words.append("re-running")
+        words.append(f"re-running {session.rerun_share:.0%}")
     if session.filming:
         words.append("filming")
     if session.fetching:

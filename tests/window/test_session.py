@@ -1,5 +1,8 @@
 """What panels act on, without a window: changed scenarios, going back, sending and auto-fire."""
 
+import itertools
+from types import SimpleNamespace
+
 import numpy as np
 import pytest
 
@@ -7,13 +10,14 @@ from behaviours.components import Flight, Phase, Threat
 from behaviours.scenario import check_scenario
 from demos.running import open_scenario
 from demos.window.session import Session
+from demos.window.status import states
 
 FRAME_S = 1.0 / 60.0
 THREAT = {"azimuth_deg": 20.0, "speed_mps": 25.0, "perceived_s": 0.3}
 
 
-def session_of(raw, tmp_path) -> Session:
-    session = Session(check_scenario({"character": [{"clip": "sway"}], **raw}), tmp_path, tmp_path, lambda: 0.0)
+def session_of(raw, tmp_path, stopwatch=lambda: 0.0) -> Session:
+    session = Session(check_scenario({"character": [{"clip": "sway"}], **raw}), tmp_path, tmp_path, stopwatch)
     session.slow_motion.enabled = False
     return session
 
@@ -49,6 +53,26 @@ def test_a_changed_constant_gives_the_run_that_has_it_from_the_start(session):
     session.forget_settings("block")
     pass_time(session, 1)
     assert session.world.digest() == before
+
+
+def test_it_is_told_how_far_a_changed_run_has_come(tmp_path):
+    clock = itertools.count()
+    session = session_of({}, tmp_path, lambda: 0.005 * next(clock))
+    for _ in range(40):
+        session.run.advance()
+    session.pause()
+    session.change_setting("block.offset_m", 0.2)
+    told = []
+    session.advance(0.0)
+    while session.busy:
+        told += [word for word in states(SimpleNamespace(session=session, held_s=None)) if "re-running" in word]
+        assert told[-1] == f"re-running {session.rerun_share:.0%}"
+        session.advance(0.0)
+    shares = [int(word.split()[1][:-1]) for word in told]
+    assert len(shares) > 5
+    assert shares == sorted(shares)
+    assert 0 <= shares[0] < 20
+    assert 80 < shares[-1] <= 100
 
 
 def test_throws_happen_again_under_changed_rules(session):
