@@ -8,6 +8,7 @@ older than its own source *or* any source of ours that it imports, however indir
 from __future__ import annotations
 
 import contextlib
+import os
 import re
 import sys
 from collections.abc import Callable
@@ -27,7 +28,7 @@ def forget_stale(root: Path = ROOT) -> list[str]:
     paths = [path for room in ROOMS for path in sorted((root / room).rglob("*.py"))]
     sources = {path.relative_to(root).as_posix(): path for path in paths}
     dates = {name: path.stat().st_mtime_ns for name, path in sources.items()}
-    compiled = {name: _compiled_beside(path) for name, path in sources.items()}
+    compiled = _compiled_beside(sources)
     oldest = min((date for files in compiled.values() for date in files.values()), default=None)
     if oldest is None or oldest >= max(dates.values()):
         return []  # the usual case costs no more than looking at dates
@@ -49,12 +50,17 @@ def newest_kernel_source_s(root: Path = ROOT) -> float:
     return max(path.stat().st_mtime for room in WITH_KERNELS for path in (root / room).rglob("*.py"))
 
 
-def _compiled_beside(source: Path) -> dict[Path, int]:
-    """Numba's files of compiled code of one module, with their dates."""
-    found = {}
-    for file in (source.parent / "__pycache__").glob(f"{source.stem}.*.nbc"):
-        with contextlib.suppress(FileNotFoundError):  # another process may be tidying too
-            found[file] = file.stat().st_mtime_ns
+def _compiled_beside(sources: dict[str, Path]) -> dict[str, dict[Path, int]]:
+    """Numba's files of compiled code of each module, with their dates. There are a thousand: a folder is read once."""
+    found: dict[str, dict[Path, int]] = {name: {} for name in sources}
+    names = {(path.parent, path.stem): name for name, path in sources.items()}
+    for folder in dict.fromkeys(path.parent for path in sources.values()):
+        with contextlib.suppress(FileNotFoundError), os.scandir(folder / "__pycache__") as files:
+            for file in files:
+                name = names.get((folder, file.name.partition(".")[0]))
+                if name and file.name.endswith(".nbc"):
+                    with contextlib.suppress(FileNotFoundError):  # another process may be tidying too
+                        found[name][Path(file.path)] = file.stat().st_mtime_ns
     return found
 
 

@@ -13,6 +13,9 @@ from numba.core.compiler import Compiler, compile_result
 from numba.core.registry import CPUDispatcher
 
 from engine.maths.kernel_cache import KernelCache
+from engine.maths.no_blas import set_up_without_blas
+
+set_up_without_blas()
 
 # Numba's own words for: compile no way in, neither from Python nor as a pointer
 NO_WAY_IN = {"nopython": True, "no_cpython_wrapper": True, "no_cfunc_wrapper": True}
