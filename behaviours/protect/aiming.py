@@ -8,7 +8,7 @@ from behaviours.perceive.approach import Approach, plan_approach
 from behaviours.perceive.perceived import PerceivedThreat, aim_of, target_centre, target_weights
 from behaviours.perceive.threats import KINDS, Make
 from behaviours.protect.prepare import aim_point, prepare
-from behaviours.protect.task import AtPerception, Triple
+from behaviours.protect.task import AtPerception, triple
 from behaviours.settings import Settings
 from engine.body.kinematics import joints_of
 from engine.body.skeleton import PELVIS, Body, Pose
@@ -64,10 +64,6 @@ def perceive(
         head, pelvis = target_weights(body, line_m, *joints_of(body, pose))
     excess_m = max(0.0, radius_m - KINDS["volleyball"].radius_m)
     return PerceivedThreat(
-        _triple(travel), _triple(tangent), _triple(line_m), joint, offset,
+        triple(travel), triple(tangent), triple(line_m), joint, offset,
         float(speed_norm), float(size_norm), excess_m, float(head), float(pelvis),
     )  # fmt: skip
-
-
-def _triple(v) -> Triple:
-    return (float(v[0]), float(v[1]), float(v[2]))

@@ -125,7 +125,8 @@ class Posed(NamedTuple):
     made_from: np.ndarray  # (3, 6) what trunk and legs, left and right arm were last made from; see apply_rules
 
 
-def _triple(row) -> Triple:
+def triple(row) -> Triple:
+    """A row of three numbers as a tuple, for kernels."""
     return (float(row[0]), float(row[1]), float(row[2]))
 
 
@@ -143,7 +144,7 @@ def bones_of(body: Body) -> tuple[Bones, Build]:
         np.stack([capsules.start_m[obstacles], capsules.end_m[obstacles]], axis=1),
     )
     build = Build(
-        (_triple(body.palm_m[0]), _triple(body.palm_m[1])),
+        (triple(body.palm_m[0]), triple(body.palm_m[1])),
         tuple((lengths_m[list(ELBOWS)] + lengths_m[list(WRISTS)]).tolist()),
         tuple((lengths_m[list(KNEES)] + lengths_m[list(ANKLES)]).tolist()),
         tuple((-body.limit_low_rad[list(ELBOWS), 1]).tolist()),
@@ -152,8 +153,8 @@ def bones_of(body: Body) -> tuple[Bones, Build]:
         float(capsules.radius_m[row("head")]),
         float(capsules.radius_m[row("left_hand")]),
         tuple(capsules.radius_m[[row("left_forearm"), row("right_forearm")]].tolist()),
-        (_triple(capsules.start_m[row("left_hand")]), _triple(capsules.start_m[row("right_hand")])),
-        (_triple(capsules.end_m[row("left_hand")]), _triple(capsules.end_m[row("right_hand")])),
+        (triple(capsules.start_m[row("left_hand")]), triple(capsules.start_m[row("right_hand")])),
+        (triple(capsules.end_m[row("left_hand")]), triple(capsules.end_m[row("right_hand")])),
         tuple(capsules.radius_m[obstacles].tolist()),
     )
     return bones, build

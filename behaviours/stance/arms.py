@@ -37,11 +37,11 @@ def hang_arm(body, arm, side, rotations, chest, clavicle):
     upper = quaternion.multiply(base, quaternion.multiply(lift, quaternion.about_z(-out * arm[TURN])))
     shoulder = quaternion.multiply(quaternion.conjugate(clavicle), upper)
     s, e = SHOULDERS[side], ELBOWS[side]
-    _put(rotations, s, limits.clamp_rotation(body.limit_low_rad[s], body.limit_high_rad[s], shoulder))
+    quaternion.put(rotations, s, limits.clamp_rotation(body.limit_low_rad[s], body.limit_high_rad[s], shoulder))
     bend = quaternion.about_y(-min(max(arm[ELBOW] + NEUTRAL_ELBOW, 0.0), -body.limit_low_rad[e, 1]))
     palm = min(max(arm[PALM] + NEUTRAL_PALM, body.limit_low_rad[e, 2]), body.limit_high_rad[e, 2])
-    _put(rotations, e, quaternion.multiply(bend, quaternion.about_z(-out * palm)))
-    _put(rotations, WRISTS[side], quaternion.IDENTITY)
+    quaternion.put(rotations, e, quaternion.multiply(bend, quaternion.about_z(-out * palm)))
+    quaternion.put(rotations, WRISTS[side], quaternion.IDENTITY)
 
 
 @inner_kernel
@@ -68,9 +68,9 @@ def ready_arm(side, rotations):
     """An arm that is about to reach: at the side, the elbow at a right angle. Where it starts from decides nothing
     but its palm.
     """
-    _put(rotations, SHOULDERS[side], quaternion.IDENTITY)
-    _put(rotations, ELBOWS[side], quaternion.about_y(-0.5 * math.pi))
-    _put(rotations, WRISTS[side], quaternion.IDENTITY)
+    quaternion.put(rotations, SHOULDERS[side], quaternion.IDENTITY)
+    quaternion.put(rotations, ELBOWS[side], quaternion.about_y(-0.5 * math.pi))
+    quaternion.put(rotations, WRISTS[side], quaternion.IDENTITY)
 
 
 @njit(cache=True)
@@ -110,8 +110,3 @@ def _zero_from_carried(orientations, side, along):
     zero = elbow_zero(orientations, side, along)
     turn = math.atan2(vector.inner(along, vector.cross(carried, zero)), vector.inner(carried, zero))
     return (1.0 - 2.0 * side) * turn
-
-
-@inner_kernel
-def _put(rotations, joint, q):
-    rotations[joint, 0], rotations[joint, 1], rotations[joint, 2], rotations[joint, 3] = q

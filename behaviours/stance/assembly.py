@@ -72,15 +72,12 @@ def assemble(body, plan, unknowns, balance_rad, figure):
 
 @inner_kernel
 def _begin_arms(body, plan, rotations):
-    chest = quaternion.multiply(quaternion.multiply(_row(rotations, PELVIS), rotations[WAIST]), rotations[BACK])
+    chest = quaternion.multiply(
+        quaternion.multiply(quaternion.at(rotations, PELVIS), rotations[WAIST]), rotations[BACK]
+    )
     for side in range(2):
         if plan.reaching[side]:
             arms.ready_arm(side, rotations)
         else:
             clavicle = quaternion.multiply(chest, rotations[CLAVICLES[side]])
             arms.hang_arm(body, plan.arm[side], side, rotations, chest, clavicle)
-
-
-@njit(cache=True)
-def _row(rotations, joint):
-    return (rotations[joint, 0], rotations[joint, 1], rotations[joint, 2], rotations[joint, 3])

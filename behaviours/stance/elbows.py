@@ -104,7 +104,7 @@ def _hold_at_limits(body, rotations, positions, orientations, side, target_m):
     """Draws shoulder and elbow back to their limits, in place; returns how far the wrist then is from the target."""
     for joint in (SHOULDERS[side], ELBOWS[side]):
         held = limits.clamp_rotation(body.limit_low_rad[joint], body.limit_high_rad[joint], rotations[joint])
-        _put(rotations, joint, held)
+        quaternion.put(rotations, joint, held)
         limb_ik.place_children(body.offset_m, rotations, positions, orientations, PARENT[joint], joint)
     limb_ik.place_children(body.offset_m, rotations, positions, orientations, ELBOWS[side], WRISTS[side])
     return vector.distance(positions[WRISTS[side]], target_m)
@@ -123,8 +123,3 @@ def strain_rad(body, rotations, side):
             over = max(low - angle[axis], angle[axis] - high, 0.0)
             total += over * over
     return math.sqrt(total)
-
-
-@inner_kernel
-def _put(rotations, joint, q):
-    rotations[joint, 0], rotations[joint, 1], rotations[joint, 2], rotations[joint, 3] = q

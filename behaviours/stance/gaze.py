@@ -85,8 +85,8 @@ def _turn(body, rotations, orientations, joint, parent, world_turn):
     turned = quaternion.multiply(world_turn, orientations[joint])
     local = quaternion.multiply(quaternion.conjugate(orientations[parent]), turned)
     local = limits.clamp_rotation(body.limit_low_rad[joint], body.limit_high_rad[joint], quaternion.normalise(local))
-    _put(rotations, joint, local)
-    _put(orientations, joint, quaternion.multiply(orientations[parent], local))
+    quaternion.put(rotations, joint, local)
+    quaternion.put(orientations, joint, quaternion.multiply(orientations[parent], local))
 
 
 @njit(cache=True)
@@ -94,9 +94,4 @@ def _place(body, rotations, positions, orientations, joint, parent):
     """A joint's position and orientation from its parent's."""
     p = vector.add(positions[parent], quaternion.rotate(orientations[parent], body.offset_m[joint]))
     positions[joint, 0], positions[joint, 1], positions[joint, 2] = p
-    _put(orientations, joint, quaternion.multiply(orientations[parent], rotations[joint]))
-
-
-@inner_kernel
-def _put(rows, joint, q):
-    rows[joint, 0], rows[joint, 1], rows[joint, 2], rows[joint, 3] = q
+    quaternion.put(orientations, joint, quaternion.multiply(orientations[parent], rotations[joint]))

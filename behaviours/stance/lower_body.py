@@ -150,10 +150,10 @@ def fit_leg(body, side, pelvis, hip, ankle, foot, toe_rad, rotations):
     flexed = _about_y(-_cosine(thigh, shin, length))  # by pi less the triangle's angle at the knee
     upper = quaternion.multiply(straight, quaternion.conjugate(_about_y(_cosine(thigh, length, shin))))
     lower = quaternion.multiply(upper, flexed)
-    _put(rotations, HIPS[side], quaternion.multiply(quaternion.conjugate(pelvis), upper))
-    _put(rotations, KNEES[side], flexed)
-    _put(rotations, ANKLES[side], quaternion.multiply(quaternion.conjugate(lower), foot))
-    _put(rotations, TOES[side], quaternion.about_y(-toe_rad))
+    quaternion.put(rotations, HIPS[side], quaternion.multiply(quaternion.conjugate(pelvis), upper))
+    quaternion.put(rotations, KNEES[side], flexed)
+    quaternion.put(rotations, ANKLES[side], quaternion.multiply(quaternion.conjugate(lower), foot))
+    quaternion.put(rotations, TOES[side], quaternion.about_y(-toe_rad))
 
 
 @inner_kernel
@@ -185,12 +185,7 @@ def solve_lower_body(body, asked, balance_rad, root_m, rotations):
     """
     place, pelvis, left, right = place_pelvis(body, asked, balance_rad)
     root_m[0], root_m[1], root_m[2] = place
-    _put(rotations, PELVIS, pelvis)
+    quaternion.put(rotations, PELVIS, pelvis)
     for side in range(2):
         hip = left if side == 0 else right
         fit_leg(body, side, pelvis, hip, asked.ankle_m[side], asked.foot_turned[side], asked.toe_rad[side], rotations)
-
-
-@inner_kernel
-def _put(rotations, joint, q):
-    rotations[joint, 0], rotations[joint, 1], rotations[joint, 2], rotations[joint, 3] = q

@@ -12,6 +12,7 @@ import numpy as np
 
 from behaviours.stance import frame
 from engine.body.skeleton import BACK, CLAVICLES, HEAD, NECK, WAIST
+from engine.maths import quaternion
 from engine.maths.inner_kernel import inner_kernel
 from engine.maths.kernel import njit
 
@@ -74,15 +75,10 @@ def shape_torso(body, classes, opposed, unknowns, rotations):
         x, y, z = spine_angles(classes, unknowns, k)
         if k == 0:
             x = min(max(x, body.limit_low_rad[WAIST, 1]), body.limit_high_rad[WAIST, 1])
-        _put(rotations, SPINE[k], frame.rotation(x, y, z))
+        quaternion.put(rotations, SPINE[k], frame.rotation(x, y, z))
     for side in range(2):
         y, z = collar_angles(opposed, unknowns, side)
-        _put(rotations, CLAVICLES[side], frame.rotation(0.0, y, z))
-
-
-@inner_kernel
-def _put(rotations, joint, q):
-    rotations[joint, 0], rotations[joint, 1], rotations[joint, 2], rotations[joint, 3] = q
+        quaternion.put(rotations, CLAVICLES[side], frame.rotation(0.0, y, z))
 
 
 @njit(cache=True)
