@@ -18,7 +18,7 @@ from behaviours.timing import TICK_S
 from engine.body import footing
 from engine.body.kinematics import com_of, joints_of
 from engine.body.limits import clamp_keeping, clamp_rotation, from_components
-from engine.body.skeleton import ANKLES, HIPS, JOINT_COUNT, JOINTS, KNEES, MIRRORED, PELVIS, Pose
+from engine.body.skeleton import ANKLES, ELBOWS, HIPS, JOINT_COUNT, JOINTS, KNEES, MIRRORED, PELVIS, WRISTS, Pose
 from engine.maths import quaternion
 
 # degrees of swing X, swing Y, twist Z at each joint (engine.body.limits), left side given: falling forwards, backwards,
@@ -60,8 +60,11 @@ def _mirrored(components):
 
 FORWARDS, BACKWARDS, LEFTWARDS = (_both_sides(given) for given in (_FORWARDS, _BACKWARDS, _LEFTWARDS))
 RIGHTWARDS = _mirrored(LEFTWARDS)
-RESTING = _both_sides({"left_hip": (5, -6, 0), "left_knee": (0, 5, 0), "left_ankle": (0, 50, 0)})
-LEGS = (*HIPS, *KNEES, *ANKLES)
+RESTING = _both_sides({
+    "left_hip": (5, -6, 0), "left_knee": (0, 5, 0), "left_ankle": (0, 50, 0),
+    "left_elbow": (0, -15, 0), "left_wrist": (0, 0, 0),
+})  # fmt: skip
+LIMP = (*HIPS, *KNEES, *ANKLES, *ELBOWS, *WRISTS)  # a forearm that stood on its elbow would stand there for ever
 LIES_BELOW = 0.3  # of the leg's length, the hips
 
 
@@ -100,7 +103,7 @@ def held_pose(world, row: int, pose: Pose) -> tuple[Pose, float]:
     """What the servos of a simulated body in this pose pull towards, and with which share of its strength.
 
     On its feet the sustained pose, with all of it. In a fall that of the fall, with less; once it lies, with little,
-    and the legs stretch out.
+    and legs and forearms stretch out on the ground.
     """
     s, response, body = world[Sustained], world.assets.settings.response, body_of(world, row)
     target = Pose(s.root_m[row].copy(), s.rotations[row].copy())
@@ -108,6 +111,6 @@ def held_pose(world, row: int, pose: Pose) -> tuple[Pose, float]:
         return target, 1.0
     height = joints_of(body, pose)[0][PELVIS, 2] / footing.leg_length_m(body, 0)
     up = min(max((height - LIES_BELOW) / LIES_BELOW, 0.0), 1.0)
-    for j in LEGS:
+    for j in LIMP:
         target.rotations[j] = quaternion.slerp(from_components(*RESTING[j]), target.rotations[j], up)
     return target, response.down_share + up * (response.falling_share - response.down_share)

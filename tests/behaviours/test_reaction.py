@@ -9,6 +9,7 @@ from behaviours.components import Blend, Phase, Playback
 from behaviours.measure.measures import foot_slide_max_m, seam_jumps
 from behaviours.timing import TICK_S
 from engine.body.kinematics import joints_of
+from engine.body.skeleton import WRISTS
 from tests.behaviours.runs import AHEAD, events, phases, run, simulation_of, track_of
 
 
@@ -144,6 +145,13 @@ def test_a_heavy_blow_knocks_down_and_the_body_comes_to_rest():
     assert last[2] < 0.35  # lies
     assert np.linalg.norm(last - before) < 0.005  # and keeps still
     assert np.isfinite(track.pose.rotations).all()
+
+
+def test_the_forearms_of_who_lies_do_not_stand_on_their_elbows():
+    blow = AHEAD | {"kind": "custom", "mass_kg": 14.0, "radius_m": 0.2, "azimuth_deg": 40.0}
+    track = track_of(run([blow], duration_s=4.0))
+    wrists_m = joints_of(track.body, track.pose)[0][-1, list(WRISTS)]
+    assert (wrists_m[:, 2] < 0.1).all()  # a forearm is 25 cm
 
 
 def test_a_character_whose_state_is_no_number_stops_where_it_was_and_says_so():
