@@ -18,7 +18,7 @@ from behaviours.blends.blending import BlendEnd
 from behaviours.blends.swung_ways import bend_swung, put_capsules
 from behaviours.timing import ease
 from engine.body.kinematics import joints_of
-from engine.body.overlap import ARM_CAPSULES, PAIRS, too_deep
+from engine.body.overlap import ARM_CAPSULES, PAIRS, too_deep_into
 from engine.body.skeleton import ELBOWS, PELVIS, SHOULDERS, WRISTS, Pose
 from engine.maths import vector
 from engine.maths.copying import copy_into
@@ -67,27 +67,36 @@ def let_be(first_m, last_m, weight, out):
 
 
 @inner_kernel
+def put_on_way(body, capsules, start, end, moments, side, ways, k):
+    """Puts one arm where its way has it at moment k, in place."""
+    rotations, joints_m, turned = moments.rotations[k], moments.joints_m[k], moments.turned[k]
+    follow_way(body, start, end, moments.weight[k], side, ways, rotations, joints_m, turned)
+    put_capsules(capsules, side, joints_m, turned, moments.ends_m, k)
+
+
+@inner_kernel
 def is_good(body, capsules, start, end, moments, side, ways, other_m):
-    """Puts one arm on its way at every moment, in place; returns whether that is a way for an arm, beside the other's
-    capsules (K, C, 2, 3).
+    """Whether that is a way for an arm, beside the other's capsules (K, C, 2, 3). Puts the arm on it at every moment,
+    in place, up to the first that is wrong.
     """
-    shoulder, elbow, good, here = SHOULDERS[side], ELBOWS[side], True, (0.0, 0.0, 0.0)
+    shoulder, elbow, here, deep_m = SHOULDERS[side], ELBOWS[side], (0.0, 0.0, 0.0), np.empty(len(PAIRS))
     for k in range(len(moments.weight)):
-        rotations, joints_m, turned = moments.rotations[k], moments.joints_m[k], moments.turned[k]
-        weight = moments.weight[k]
-        follow_way(body, start, end, weight, side, ways, rotations, joints_m, turned)
-        put_capsules(capsules, side, joints_m, turned, moments.ends_m, k)
+        put_on_way(body, capsules, start, end, moments, side, ways, k)
+        weight, joints_m = moments.weight[k], moments.joints_m[k]
         before, here = here, vector.subtract(vector.at(joints_m, elbow), vector.at(joints_m, PELVIS))
-        if k > 0 and ways.modes[side] != SWUNG:
-            good = good and vector.distance(here, before) < STRIDE_M * (weight - moments.weight[k - 1])
+        stride_m = STRIDE_M * (weight - moments.weight[max(k - 1, 0)])
+        if k > 0 and ways.modes[side] != SWUNG and vector.distance(here, before) >= stride_m:
+            return False
         beyond = overstep(
-            body, shoulder, start.rotations[shoulder], end.rotations[shoulder], weight, rotations[shoulder]
+            body, shoulder, start.rotations[shoulder], end.rotations[shoulder], weight, moments.rotations[k, shoulder]
         )[0]
-        good = good and max(abs(beyond[0]), abs(beyond[1]), abs(beyond[2])) < yielding(TOLERATED_RAD)
+        if max(abs(beyond[0]), abs(beyond[1]), abs(beyond[2])) >= yielding(TOLERATED_RAD):
+            return False
+        too_deep_into(capsules.radius_m, side, k, moments.ends_m, other_m, moments.allowed_m, deep_m, 0)
         for n in range(len(PAIRS)):
-            deep = too_deep(capsules.radius_m, n, side, k, moments.ends_m, other_m, moments.allowed_m)
-            good = good and deep < TOLERATED_M
-    return good
+            if deep_m[n] >= TOLERATED_M:
+                return False
+    return True
 
 
 @inner_kernel
@@ -107,7 +116,8 @@ def choose_way(body, capsules, start, end, moments, side, ways, other_m):
         body, capsules, start, end, side, moments.weight, moments.joints_m, moments.turned, moments.ends_m, other_m,
         moments.allowed_m, ways.bends[side],
     )  # fmt: skip
-    is_good(body, capsules, start, end, moments, side, ways, other_m)
+    for k in range(len(moments.weight)):
+        put_on_way(body, capsules, start, end, moments, side, ways, k)
 
 
 @njit(cache=True)

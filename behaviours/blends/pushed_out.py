@@ -23,7 +23,7 @@ from engine.maths.copying import copy_into
 from engine.maths.inner_kernel import inner_kernel
 from engine.maths.kernel import njit
 from engine.maths.least_squares import bounded_step, normal_equations
-from engine.maths.shapes import nearest_between
+from engine.maths.shapes import boxes_apart, nearest_between
 from engine.maths.springs import decaying
 
 TURNS = 4  # of an arm: its shoulder's, a rotation vector in the world, and its elbow's flexion
@@ -168,6 +168,9 @@ def depth_trouble(capsules, allowed_m, positions, orientations, ends_m, residual
             slopes[row, k] = 0.0
         a, b = PAIRS[n, 0], PAIRS[n, 1]
         one, other = segment(ends_m, 0, a), segment(ends_m, 0, b)
+        touch_m = capsules.radius_m[a] + capsules.radius_m[b] - allowed_m[n]
+        if boxes_apart(one[0], one[1], other[0], other[1], touch_m):
+            continue
         s, t = nearest_between(one[0], one[1], other[0], other[1])
         p, q = vector.mix(one[0], one[1], s), vector.mix(other[0], other[1], t)
         over = capsules.radius_m[a] + capsules.radius_m[b] - vector.distance(p, q) - allowed_m[n]

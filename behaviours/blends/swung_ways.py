@@ -13,7 +13,7 @@ import numpy as np
 from behaviours.blends.arm_ways import KNOT_PARTS, KNOTS, swing_elbow, swing_shoulder
 from engine.body import limits
 from engine.body.limb_ik import side_sign
-from engine.body.overlap import ARM_CAPSULES, PAIRS, too_deep
+from engine.body.overlap import ARM_CAPSULES, PAIRS, too_deep_into
 from engine.body.skeleton import CLAVICLES, ELBOWS, SHOULDERS, WRISTS
 from engine.maths import quaternion, vector
 from engine.maths.copying import copy_into
@@ -125,9 +125,9 @@ def residuals_into(body, capsules, arm, bends, ends_m, other_m, allowed_m, out):
     for k in range(1, len(arm.weight) - 1):
         wrist_m = swing_into(body, capsules, arm, k, bends, ends_m)
         out[count] = vector.distance(wrist_m, vector.at(arm.line_m, k)) / LINE_SCALE_M
+        too_deep_into(capsules.radius_m, arm.side, k, ends_m, other_m, allowed_m, out, count + 1)
         for n in range(len(PAIRS)):
-            deep = too_deep(capsules.radius_m, n, arm.side, k, ends_m, other_m, allowed_m)
-            out[count + 1 + n] = deep / DEPTH_SCALE_M
+            out[count + 1 + n] /= DEPTH_SCALE_M
         count += PARTS
     for n in range(BENDS):
         out[count + n] = bends[n // KNOT_PARTS, n % KNOT_PARTS] / BEND_SCALE_RAD

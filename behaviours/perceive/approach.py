@@ -41,9 +41,10 @@ def fly_backwards(contact_m, contact_mps, ttc_s: float, drag: float):
 
 
 def lowest_m(contact_m, contact_mps, ttc_s: float, drag: float) -> float:
-    """The lowest height of the ball's centre between perception and contact."""
-    steps = max(1, math.ceil(ttc_s / PATH_STEP_S))
-    return min(fly(contact_m, contact_mps, GRAVITY_MPS2, drag, -ttc_s * k / steps)[0][2] for k in range(steps + 1))
+    """The lowest height of the ball's centre between perception and contact: that of either end, since a ball that has
+    begun to fall goes on falling, with drag too.
+    """
+    return min(contact_m[2], fly_backwards(contact_m, contact_mps, ttc_s, drag)[0][2])
 
 
 def plan_approach(

@@ -13,7 +13,7 @@ from engine.body.limits import components
 from engine.body.skeleton import BACK, ELBOWS, SHOULDERS, WRISTS
 from engine.maths import quaternion, vector
 from engine.maths.inner_kernel import inner_kernel
-from engine.maths.shapes import nearest_between
+from engine.maths.shapes import boxes_apart, nearest_between
 
 ARM_VARIABLES, SWING, TURN = 7, 3, 4
 VARIABLES = 2 * ARM_VARIABLES
@@ -53,9 +53,10 @@ def put_arm(task, wishes, point, side, posed):
     chest = quaternion.at(posed.orientations, side - side + BACK)
     palm = vector.add(vector.at(wishes, side), quaternion.rotate(chest, (point[p], point[p + 1], point[p + 2])))
     turn = quaternion.from_rotation_vector((point[p + TURN], point[p + TURN + 1], point[p + TURN + 2]))
-    hand = quaternion.multiply(quaternion.at(wishes[:, 3:7], side), turn)
+    wished = (wishes[side, 3], wishes[side, 4], wishes[side, 5], wishes[side, 6])
+    hand, elbow_way = quaternion.multiply(wished, turn), (wishes[side, 7], wishes[side, 8], wishes[side, 9])
     return put_palm(
-        side, palm, hand, vector.at(wishes[:, 7:], side), point[p + SWING], task.build.palm_m[side],
+        side, palm, hand, elbow_way, point[p + SWING], task.build.palm_m[side],
         task.build.elbow_rad[side], task.bones.offset_m, posed.rotations, posed.positions, posed.orientations,
     )  # fmt: skip
 
@@ -76,16 +77,15 @@ def arm_trouble(task, wishes, line, along, hard, point, side, posed, segments, r
     _joint_trouble(task.start, task.rules.limit_margin_rad, hard, side, posed.rotations, row, residuals)
     wrist = vector.at(posed.positions, WRISTS[side])
     turned = quaternion.at(posed.orientations, WRISTS[side])
-    vector.put(segments[:, 0:3], side, vector.at(posed.positions, ELBOWS[side]))
-    vector.put(segments[:, 3:6], side, wrist)
-    vector.put(segments[:, 6:9], side, vector.add(wrist, quaternion.rotate(turned, build.hand_start_m[side])))
-    vector.put(segments[:, 9:12], side, vector.add(wrist, quaternion.rotate(turned, build.hand_end_m[side])))
+    _put_axis(segments, side, 0, vector.at(posed.positions, ELBOWS[side]), wrist)
+    first = vector.add(wrist, quaternion.rotate(turned, build.hand_start_m[side]))
+    last = vector.add(wrist, quaternion.rotate(turned, build.hand_end_m[side]))
+    _put_axis(segments, side, 6, first, last)
     for part in range(2):
         radius_m = build.arm_radius_m[side] if part == 0 else build.hand_radius_m
         for c in range(OBSTACLE_COUNT):
-            apart_m = _apart_m(segments[side], 6 * part, posed.obstacles[c], 0)
             residuals[row + DEPTH_ROW + OBSTACLE_COUNT * part + c] = hard * _pressed(
-                radius_m + build.obstacle_radius_m[c] - apart_m
+                _axis(segments, side, 6 * part), _axis(posed.obstacles, c, 0), radius_m + build.obstacle_radius_m[c]
             )
 
 
@@ -116,20 +116,29 @@ def _beyond(low_rad, high_rad, margin_rad, joint, axis, angle_rad):
 
 
 @inner_kernel
-def _pressed(depth_m):
-    """How dear it is that two capsules are this deep in each other, or nearly."""
-    return DEPTH_PER_M * max(depth_m + SKIN_M, 0.0)
+def _put_axis(rows, row, first, start, end):
+    """Writes both ends of a capsule's axis into six numbers of a row (N, 6 and more), from `first` on."""
+    for k in range(3):
+        rows[row, first + k], rows[row, first + 3 + k] = start[k], end[k]
 
 
 @inner_kernel
-def _apart_m(one, first, other, second):
-    """Distance between the axes of two capsules, six numbers from `first` in one row, from `second` in the other."""
-    a, b = (one[first], one[first + 1], one[first + 2]), (one[first + 3], one[first + 4], one[first + 5])
-    c, d = (other[second], other[second + 1], other[second + 2]), (
-        other[second + 3], other[second + 4], other[second + 5]
-    )  # fmt: skip
-    s, t = nearest_between(a, b, c, d)
-    return vector.distance(vector.mix(a, b, s), vector.mix(c, d, t))
+def _axis(rows, row, first):
+    """Both ends of a capsule's axis out of there, as tuples."""
+    return (
+        (rows[row, first], rows[row, first + 1], rows[row, first + 2]),
+        (rows[row, first + 3], rows[row, first + 4], rows[row, first + 5]),
+    )
+
+
+@inner_kernel
+def _pressed(axis, other, radii_m):
+    """How dear it is that two capsules, whose radii add up to this, are in each other, or nearly."""
+    if boxes_apart(axis[0], axis[1], other[0], other[1], radii_m + SKIN_M):
+        return 0.0
+    s, t = nearest_between(axis[0], axis[1], other[0], other[1])
+    apart_m = vector.distance(vector.mix(axis[0], axis[1], s), vector.mix(other[0], other[1], t))
+    return DEPTH_PER_M * max(radii_m - apart_m + SKIN_M, 0.0)
 
 
 @inner_kernel
@@ -139,5 +148,6 @@ def crossing(build, hard, segments, residuals):
         for right in range(2):
             radius_m = build.arm_radius_m[0] if left == 0 else build.hand_radius_m
             radius_m += build.arm_radius_m[1] if right == 0 else build.hand_radius_m
-            apart_m = _apart_m(segments[0], 6 * left, segments[1], 6 * right)
-            residuals[2 * ARM_ROWS + 2 * left + right] = hard * _pressed(radius_m - apart_m)
+            residuals[2 * ARM_ROWS + 2 * left + right] = hard * _pressed(
+                _axis(segments, 0, 6 * left), _axis(segments, 1, 6 * right), radius_m
+            )

@@ -10,7 +10,7 @@ from engine.body.skeleton import Body, Pose
 from engine.maths import vector
 from engine.maths.inner_kernel import inner_kernel
 from engine.maths.kernel import njit
-from engine.maths.shapes import nearest_between
+from engine.maths.shapes import boxes_apart, nearest_between
 
 TRUNK = ("pelvis", "belly", "chest", "upper_chest", "neck", "head")
 ARMS = tuple((f"{side}_forearm", f"{side}_hand") for side in ("left", "right"))
@@ -46,22 +46,28 @@ def depths_into(ends, radius_m, pairs, out):
 
 
 @inner_kernel
-def too_deep(radius_m, n, side, k, own_m, other_m, allowed_m):
-    """How much deeper than allowed (K, P) one of PAIRS is at moment k, metres; 0 where a side's arm has no part in it.
+def too_deep_into(radius_m, side, k, own_m, other_m, allowed_m, out, first):
+    """How much deeper than allowed (K, P) each of PAIRS is at moment k, metres; 0 where a side's arm has no part in it.
+    Writes (P,), from `first` on.
 
-    Both ends of all capsules (K, C, 2, 3): own_m has this side's arm and the trunk, other_m the other arm.
+    Both ends of all capsules (K, C, 2, 3): own_m has this side's arm and the trunk, other_m the other arm. All pairs in
+    one call: to hand these arrays on costs more than a pair does.
     """
-    a, b = PAIRS[n, 0], PAIRS[n, 1]
-    if ARM_CAPSULES[a, 0] != side and ARM_CAPSULES[b, 0] != side:
-        return 0.0
-    p, q = segment(own_m, k, a), segment(own_m, k, b)
-    if ARM_CAPSULES[a, 0] == 1 - side:
-        p = segment(other_m, k, a)
-    if ARM_CAPSULES[b, 0] == 1 - side:
-        q = segment(other_m, k, b)
-    s, t = nearest_between(p[0], p[1], q[0], q[1])
-    apart = vector.distance(vector.mix(p[0], p[1], s), vector.mix(q[0], q[1], t))
-    return max(0.0, radius_m[a] + radius_m[b] - apart - allowed_m[k, n])
+    for n in range(len(PAIRS)):
+        out[first + n] = 0.0
+        a, b = PAIRS[n, 0], PAIRS[n, 1]
+        if ARM_CAPSULES[a, 0] != side and ARM_CAPSULES[b, 0] != side:
+            continue
+        p, q = segment(own_m, k, a), segment(own_m, k, b)
+        if ARM_CAPSULES[a, 0] == 1 - side:
+            p = segment(other_m, k, a)
+        if ARM_CAPSULES[b, 0] == 1 - side:
+            q = segment(other_m, k, b)
+        if boxes_apart(p[0], p[1], q[0], q[1], radius_m[a] + radius_m[b] - allowed_m[k, n]):
+            continue
+        s, t = nearest_between(p[0], p[1], q[0], q[1])
+        apart = vector.distance(vector.mix(p[0], p[1], s), vector.mix(q[0], q[1], t))
+        out[first + n] = max(0.0, radius_m[a] + radius_m[b] - apart - allowed_m[k, n])
 
 
 @inner_kernel

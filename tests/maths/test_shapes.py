@@ -7,7 +7,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from engine.maths import shapes
+from engine.maths import shapes, vector
+from engine.maths.kernel import njit
 
 STILL = ((0.0, 0.0, -1.0), (0.0, 0.0, 1.0)) * 2
 
@@ -63,6 +64,29 @@ def test_the_first_contact_is_the_first_one(seed):
         assert abs(gaps[k]) < 1e-3
         if len(touching):
             assert touching[0] == pytest.approx(share * 10000, abs=1.001)
+
+
+@njit(cache=True)
+def boxes_apart(start, end, other_start, other_end, distance):
+    return shapes.boxes_apart(start, end, other_start, other_end, distance)
+
+
+@given(st.integers(0, 2**32 - 1))
+def test_segments_whose_boxes_are_apart_are_too(seed):
+    rng = np.random.default_rng(seed)
+    ends = [tuple(end) for end in rng.uniform(-1, 1, (4, 3))]
+    s, t = shapes.nearest_between(*ends)
+    apart = math.dist(vector.mix(ends[0], ends[1], s), vector.mix(ends[2], ends[3], t))
+    assert not boxes_apart(*ends, apart)
+
+
+def test_boxes_are_apart_along_any_axis_either_way_round():
+    a = ((0.0, 0.0, 0.0), (1.0, 1.0, 1.0))
+    for k in range(3):
+        far = tuple(tuple(v + 3.0 * (i == k) for i, v in enumerate(end)) for end in a)
+        assert boxes_apart(*a, *far, 1.9)
+        assert boxes_apart(*far, *a, 1.9)
+        assert not boxes_apart(*a, *far, 2.1)
 
 
 def test_a_point_on_the_axis_still_has_an_outside():

@@ -70,6 +70,16 @@ def test_a_path_from_under_ground_is_raised_by_no_more_than_it_takes():
     assert math.degrees(math.asin((0.5 * G + 0.105 - 1.6) / 22.8)) == pytest.approx(way.raised_deg, abs=1e-6)
 
 
+@given(st.integers(-80, 80), st.integers(3, 40), st.integers(2, 120), st.sampled_from([0.0, 0.016, 0.2]))
+def test_a_flight_is_lowest_at_one_of_its_ends(elevation_deg, speed_mps, ticks, drag):
+    """Against every moment of it; 0.2 / m is a beach ball, which falls at its terminal velocity within metres."""
+    up = math.radians(elevation_deg)
+    velocity = (-speed_mps * math.cos(up), 0.0, -speed_mps * math.sin(up))
+    ttc_s = min(ticks / 120.0, 0.5 / (drag * speed_mps) if drag else math.inf)
+    along = [fly(AIM, velocity, GRAVITY_MPS2, drag, -ttc_s * k / 200)[0][2] for k in range(201)]
+    assert lowest_m(AIM, velocity, ttc_s, drag) == pytest.approx(min(along), abs=1e-9)
+
+
 def test_or_the_time_is_shortened_to_the_last_whole_tick_that_clears():
     way = plan_approach((0.0, 0.0, 1.6), 0.0, 0.0, 0.0, 22.8, 1.0, radius_m=0.105, low_path="shorten")
     longest_s = math.sqrt(2.0 * (1.6 - 0.105) / G)
