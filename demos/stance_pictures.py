@@ -10,6 +10,7 @@ import numpy as np
 from behaviours.stance import sequence
 from behaviours.stance.shape import shape, wind_up
 from behaviours.stance.solve import StanceResult, solve_shape
+from behaviours.stance.stepping import stands_elsewhere, steps_to
 from engine.body.skeleton import ANKLES, Body
 from engine.body.support import polygon_of
 from engine.render.camera import Camera, orbit_camera
@@ -56,11 +57,20 @@ def front_and_side(body: Body, result: StanceResult, marks: Sequence = ()) -> np
 
 
 def there_and_back(body: Body, results: Sequence[StanceResult]) -> tuple[StanceResult, list[sequence.Move]]:
-    """From neutral, with a little wind-up before each, into one stance after the other, and back to neutral."""
-    neutral, moves = solve_shape(body, shape(), results[0].feet), []
+    """From neutral, with a little wind-up before each, into one stance after the other, and back to neutral. One whose
+    feet stand elsewhere is stepped into.
+    """
+    neutral = at = solve_shape(body, shape(), results[0].feet)
+    moves: list[sequence.Move] = []
     for result in results:
-        back = solve_shape(body, wind_up(result.shape, 0.2), result.feet)
-        moves += [sequence.Move(back, WIND_UP_S, 0.0), sequence.Move(result, MOVE_S, HOLD_S)]
+        if stands_elsewhere(at.feet, result.feet):
+            moves += [*steps_to(body, at, result), sequence.Move(result, 0.0, HOLD_S)]
+        else:
+            back = solve_shape(body, wind_up(result.shape, 0.2), result.feet)
+            moves += [sequence.Move(back, WIND_UP_S, 0.0), sequence.Move(result, MOVE_S, HOLD_S)]
+        at = result
+    if stands_elsewhere(at.feet, neutral.feet):
+        return neutral, [*moves, *steps_to(body, at, neutral)]
     return neutral, [*moves, sequence.Move(neutral, MOVE_S, 0.3)]
 
 
@@ -78,6 +88,14 @@ def film_of(body: Body, frames: Sequence[sequence.Frame], marks: Sequence = ()) 
 
 
 def foot_motion_m(frames: Sequence[sequence.Frame]) -> float:
-    """How far any ankle strays from where it was in the first frame."""
-    ankles_m = np.array([frame.joints_m[list(ANKLES)] for frame in frames])
-    return float(np.sqrt(((ankles_m - ankles_m[0]) ** 2).sum(axis=-1)).max())
+    """How far any ankle strays from where it was when its foot came to stand."""
+    most_m, stood = 0.0, [None, None]
+    for frame in frames:
+        for side, ankle in enumerate(ANKLES):
+            if not frame.planted[side]:
+                stood[side] = None
+            elif stood[side] is None:
+                stood[side] = frame.joints_m[ankle]
+            else:
+                most_m = max(most_m, float(np.sqrt(((frame.joints_m[ankle] - stood[side]) ** 2).sum())))
+    return most_m

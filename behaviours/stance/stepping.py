@@ -40,6 +40,11 @@ def steps_to(body: Body, start: StanceResult, end: StanceResult) -> list[Move]:
     return [*moves, Move(end, SHIFT_S)]
 
 
+def stands_elsewhere(feet: Footprints, wanted: Footprints) -> bool:
+    """Whether either foot has to go to stand as wanted."""
+    return any(_elsewhere(feet, wanted, side) for side in (LEFT, RIGHT))
+
+
 def standing_on(body: Body, shape: Shape, feet: Footprints, side: int, share: float) -> StanceResult:
     """The shape's stance with weight over one foot (share 1: all of it), which is dominant, and both knees ready to
     give.

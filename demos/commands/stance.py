@@ -4,12 +4,13 @@ from __future__ import annotations
 
 import argparse
 import math
-from typing import Any
+from typing import Any, NamedTuple
 
 from demos.output import print_json, say
 from engine.core.files import check_output
 
 STILLS, FILMS = (".png",), (".mp4", ".gif")
+MOST_WIDTH_M = 1.5  # between the ankles
 REPEATS = 5  # the time reported is the best of these
 
 
@@ -35,7 +36,11 @@ def register(subparsers) -> None:
     parser.add_argument("--height", type=float, default=1.75, metavar="M", help="of the person, metres (1.75)")
     parser.add_argument("--sex", choices=("male", "female"), default="male", help="whose masses and proportions (male)")
     parser.add_argument(
-        "--then", action="append", default=[], metavar="SET:X", help="a further stance of the film; may be repeated"
+        "--then",
+        action="append",
+        default=[],
+        metavar="SET:X[:M]",
+        help="a further stance of the film, stepped into where M is another width between the ankles; may be repeated",
     )
     parser.add_argument(
         "--crouch", action="store_true", help="instead of a SET: crouch, twist of the pelvis, shift of the weight"
@@ -70,7 +75,7 @@ def run(args: argparse.Namespace) -> None:
     if own is None:
         meaning_of(args.set)
     kind = _kind(args.output)
-    further = [_named(text) for text in args.then]
+    further = [_further(text) for text in args.then]
     if further and kind != "film":
         raise BadInput("usage", "--then needs a film: -o FILE.mp4 or FILE.gif")
     body, feet, points = _wanted(args)
@@ -98,8 +103,8 @@ def _wanted(args) -> tuple[Any, Any, dict[str, Any]]:
 
     if not 0.5 <= args.height <= 2.5:
         raise BadInput("usage", f"--height {args.height:g}: expected 0.5 to 2.5 metres")
-    if args.width is not None and not 0.0 <= args.width <= 1.5:
-        raise BadInput("usage", f"--width {args.width:g}: expected 0 to 1.5 metres")
+    if args.width is not None and not 0.0 <= args.width <= MOST_WIDTH_M:
+        raise BadInput("usage", f"--width {args.width:g}: expected 0 to {MOST_WIDTH_M:g} metres")
     body = standard_body(args.height, sex=args.sex)
     feet = None if args.width is None else footprints.stand(body, width_m=args.width)
     return body, feet, {
@@ -191,26 +196,40 @@ def _film(output, body, frames, points) -> None:
     say(f"wrote {output}")
 
 
-def _named(text: str):
-    """`interest:0.8`; a name alone means all of it. BadInput for anything else."""
+class _Further(NamedTuple):
+    """A stance that follows another."""
+
+    set_name: str
+    intensity: float
+    width_m: float | None  # between the ankles; None: on the feet as they stand
+
+
+def _further(text: str) -> _Further:
+    """`interest:0.8`, `posture:0.2:0.4`; a name alone means all of it. BadInput for anything else."""
     from behaviours.stance.shape_sets import meaning_of
     from engine.core.errors import BadInput
 
-    name, colon, number = text.partition(":")
+    name, *numbers = text.split(":")
     try:
-        intensity = float(number) if colon else 1.0
+        intensity, *width = [float(number) for number in numbers] or [1.0]
     except ValueError:
-        intensity = math.nan
-    if not math.isfinite(intensity):
-        raise BadInput("usage", f"--then {text!r}: expected SET:X, such as interest:0.8")
-    return meaning_of(name, intensity)
+        intensity, width = math.nan, []
+    if not math.isfinite(intensity) or len(width) > 1 or not all(0.0 <= m <= MOST_WIDTH_M for m in width):
+        expected = f"SET:X or SET:X:M, such as interest:0.8 or posture:0.2:0.4, M up to {MOST_WIDTH_M:g}"
+        raise BadInput("usage", f"--then {text!r}: expected {expected}")
+    return _Further(*meaning_of(name, intensity), width[0] if width else None)
 
 
 def _more(body, further, first, points) -> list[Any]:
-    """The stances that follow, on the feet of the first one."""
+    """The stances that follow, each on the feet of the one before unless it says how wide."""
+    from behaviours.stance.footprints import stand
     from behaviours.stance.solve import solve_stance
 
-    return [solve_stance(body, named.set_name, named.intensity, feet=first.feet, **points) for named in further]
+    results, feet = [], first.feet
+    for name, intensity, width_m in further:
+        feet = feet if width_m is None else stand(body, width_m=width_m)
+        results.append(solve_stance(body, name, intensity, feet=feet, **points))
+    return results
 
 
 def _run_crouch(args) -> None:

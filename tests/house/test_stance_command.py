@@ -6,8 +6,13 @@ import numpy as np
 import pytest
 from PIL import Image
 
+from behaviours.stance import sequence
+from behaviours.stance.footprints import stand
+from behaviours.stance.solve import solve_stance
 from demos.cli import main
-from engine.body.skeleton import JOINTS
+from demos.stance_pictures import foot_motion_m, there_and_back
+from engine.body.anthropometry import standard_body
+from engine.body.skeleton import ANKLES, JOINTS
 
 KEYS = {
     "set", "intensity", "states", "amplitudes", "penalties", "cycles", "evaluations", "milliseconds", "wrist_error_m",
@@ -108,6 +113,17 @@ def test_one_stance_after_the_other_is_filmed_on_feet_that_stay(tmp_path, capsys
     assert moved_mm < 0.1
 
 
+def test_another_width_is_stepped_to_and_back():
+    body = standard_body()
+    narrow, wide = (solve_stance(body, "posture", 0.2, feet=stand(body, width_m=m)) for m in (0.15, 0.42))
+    frames = list(sequence.frames(body, *there_and_back(body, [narrow, wide])))
+    widths_m = [float(np.ptp([frame.joints_m[ankle][1] for ankle in ANKLES])) for frame in frames]
+    assert max(widths_m) == pytest.approx(0.42, abs=0.01)
+    assert (widths_m[0], widths_m[-1]) == pytest.approx((0.15, 0.15), abs=1e-3)
+    assert all(frame.planted.any() for frame in frames)
+    assert foot_motion_m(frames) < 1e-4  # of feet that stand
+
+
 @pytest.mark.parametrize("width", [0.12, 0.42])
 def test_the_crouch_is_played_on_any_width_and_no_foot_moves(capsys, width):
     assert main(["stance", "--crouch", "--width", str(width), "--json"]) == 0
@@ -121,8 +137,10 @@ def test_the_crouch_is_played_on_any_width_and_no_foot_moves(capsys, width):
     ("words", "found"),
     [
         (["posture", "--then", "hunched"], "needs a film"), (["posture", "--then", "hunch", "-o", "x.gif"], "hunched"),
-        (["posture", "--then", "hunched:much", "-o", "x.gif"], "SET:X"), (["posture", "--crouch"], "instead of a SET"),
-        (["--crouch", "-o", "x.png"], "film"), (["none.toml"], "cannot be read"),
+        (["posture", "--then", "hunched:much", "-o", "x.gif"], "SET:X"),
+        (["posture", "--then", "hunched:1:9", "-o", "x.gif"], "up to 1.5"),
+        (["posture", "--crouch"], "instead of a SET"), (["--crouch", "-o", "x.png"], "film"),
+        (["none.toml"], "cannot be read"),
     ],
 )  # fmt: skip
 def test_a_sequence_that_cannot_be_is_one_line(capsys, words, found):
