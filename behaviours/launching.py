@@ -12,7 +12,7 @@ from behaviours.perceive.threats import KINDS, Make, make_threat
 from behaviours.playing import body_of, heading_of, perception_clip_s
 from behaviours.protect.aiming import Asked, aimed
 from behaviours.protect.protection import at_perception, felt
-from behaviours.scenario_spec import ThreatSpec
+from behaviours.scenario_spec import BallSpec, ThreatSpec
 from behaviours.settle.seams import shown
 from behaviours.timing import TICK_S, time_to_contact_s, whole_ticks
 from engine.body.kinematics import joints_of
@@ -23,7 +23,7 @@ from engine.maths.ballistics import GRAVITY_MPS2, fly
 UPRIGHT = (1.0, 0.0, 0.0, 0.0)
 
 
-def make_of(spec: ThreatSpec, speed_mps: float) -> Make:
+def make_of(spec: BallSpec, speed_mps: float) -> Make:
     """The body of a scenario's threat."""
     return make_threat(
         spec.kind,

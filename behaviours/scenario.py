@@ -12,9 +12,19 @@ import tomllib
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 from pydantic import ValidationError
 
-from behaviours.scenario_spec import CharacterSpec, CommandSpec, Scenario, Section, StanceSpec, ThreatSpec, one_of
+from behaviours.scenario_spec import (
+    CharacterSpec,
+    CommandSpec,
+    Scenario,
+    Section,
+    StanceSpec,
+    ThreatSpec,
+    ThrowSpec,
+    one_of,
+)
 from behaviours.settings import Settings
 from engine.core.errors import BadInput
 
@@ -72,7 +82,7 @@ def check_scenario(
         raise BadInput("scenario", message + more, _place_of(keys, where, text, overrides)) from None
 
 
-def check_threat(raw: dict[str, Any]) -> ThreatSpec:
+def check_threat(raw: Any) -> ThreatSpec:
     """One scripted threat from plain data. BadInput on the first trouble."""
     try:
         return ThreatSpec.model_validate(raw)
@@ -81,10 +91,30 @@ def check_threat(raw: dict[str, Any]) -> ThreatSpec:
         raise BadInput("threat", _explain(first, ["threat", *(str(key) for key in first["loc"])])) from None
 
 
+def check_throw(command: dict[str, Any]) -> ThrowSpec:
+    """The ball of a command {"do": "throw", "at": character, ...}; places and velocities may be arrays. BadInput on
+    the first trouble.
+    """
+    raw = {"at_character" if key == "at" else key: value for key, value in command.items() if key != "do"}
+    for key in ("position_m", "velocity_mps", "spin_radps"):
+        if isinstance(raw.get(key), np.ndarray):
+            raw[key] = raw[key].tolist()
+    try:
+        return ThrowSpec.model_validate(raw)
+    except ValidationError as trouble:
+        first = trouble.errors()[0]
+        raise BadInput("command", _explain(first, ["throw", *(str(key) for key in first["loc"])])) from None
+
+
 def _explain(error: Any, keys: list[str]) -> str:
     dotted = ".".join(keys)
     if error["type"] == "extra_forbidden":
-        sections: dict[str, type[Section]] = {"character": CharacterSpec, "threat": ThreatSpec, "command": CommandSpec}
+        sections: dict[str, type[Section]] = {
+            "character": CharacterSpec,
+            "threat": ThreatSpec,
+            "command": CommandSpec,
+            "throw": ThrowSpec,
+        }
         section = StanceSpec if "stance" in keys[:-1] else sections.get(keys[0], Scenario)
         return f"unknown key {dotted!r}; {one_of(keys[-1], tuple(section.model_fields))}"
     reason = PLAIN_WORDS.get(error["type"]) or error["msg"].removeprefix("Value error, ")

@@ -78,25 +78,37 @@ def _known_kind(kind: str) -> str:
     return kind
 
 
-class ThreatSpec(Section):
-    """One ball. Scripted: given at contact, in the character's frame. Free: given at launch, in the world."""
+class BallSpec(Section):
+    """What flies at somebody, however it comes."""
 
     kind: Annotated[str, AfterValidator(_known_kind)] = "volleyball"
-    target: str | tuple[float, float, float] = "head"
     at_character: Annotated[int, Field(ge=0)] = 0
-    perceived_s: Annotated[float, Field(ge=0)] | None = None
-    contact_s: Annotated[float, Field(ge=0)] | None = None
-    azimuth_deg: Turn = 0.0
-    elevation_deg: Annotated[float, Field(gt=-90, lt=90)] = 0.0
-    speed_mps: Annotated[float, Field(gt=0, le=FASTEST_MPS)] | None = None
     size: Annotated[float, Field(ge=0, le=1)] = 0.5
     size_means: Literal["rule", "radius", "mass", "both"] = "rule"
     speed_range_mps: tuple[float, float] | None = None
     radius_m: Annotated[float, Field(gt=0, le=2)] | None = None
     mass_kg: Annotated[float, Field(gt=0, le=500)] | None = None
-    ttc_s: Annotated[float, Field(gt=0, le=10)] | None = None
     drag: bool = False
     spin_radps: tuple[Spin, Spin, Spin] = (0.0, 0.0, 0.0)
+
+    @field_validator("speed_range_mps")
+    @classmethod
+    def _rising(cls, speeds: tuple[float, float] | None) -> tuple[float, float] | None:
+        if speeds is not None and not speeds[0] < speeds[1]:
+            raise ValueError("the first number must be below the second")
+        return speeds
+
+
+class ThreatSpec(BallSpec):
+    """One ball. Scripted: given at contact, in the character's frame. Free: given at launch, in the world."""
+
+    target: str | tuple[float, float, float] = "head"
+    perceived_s: Annotated[float, Field(ge=0)] | None = None
+    contact_s: Annotated[float, Field(ge=0)] | None = None
+    azimuth_deg: Turn = 0.0
+    elevation_deg: Annotated[float, Field(gt=-90, lt=90)] = 0.0
+    speed_mps: Annotated[float, Field(gt=0, le=FASTEST_MPS)] | None = None
+    ttc_s: Annotated[float, Field(gt=0, le=10)] | None = None
     free: bool = False
     released_s: Annotated[float, Field(ge=0)] = 0.0
     position_m: tuple[Along, Along, Along] | None = None
@@ -113,8 +125,6 @@ class ThreatSpec(Section):
 
     @model_validator(mode="after")
     def _one_way_of_saying_it(self) -> ThreatSpec:
-        if self.speed_range_mps is not None and not self.speed_range_mps[0] < self.speed_range_mps[1]:
-            raise ValueError("speed_range_mps: the first number must be below the second")
         if self.perceived_s is not None and self.contact_s is not None:
             raise ValueError("give perceived_s or contact_s, not both: the time to contact ties them together")
         if not self.free:
@@ -131,14 +141,11 @@ class ThreatSpec(Section):
         return self
 
 
-class ThrowSpec(Section):
+class ThrowSpec(BallSpec):
     """A ball that somebody throws from somewhere, in the world; it may miss."""
 
-    at_character: Annotated[int, Field(ge=0)] = 0
     position_m: tuple[Along, Along, Along]
     velocity_mps: tuple[Rate, Rate, Rate]
-    kind: Annotated[str, AfterValidator(_known_kind)] = "volleyball"
-    size: Annotated[float, Field(ge=0, le=1)] = 0.5
 
 
 class CommandSpec(Section):
@@ -159,8 +166,8 @@ class CommandSpec(Section):
     def as_command(self) -> dict[str, Any]:
         """The same in the words of a recording; see `behaviours.simulation.apply_command`."""
         if self.throw is not None:
-            given = self.throw.model_dump(mode="json")
-            return {"do": "throw", "at": given.pop("at_character"), **given}
+            given = self.throw.model_dump(mode="json", exclude_unset=True)
+            return {"do": "throw", "at": given.pop("at_character", 0), **given}
         assert self.threat is not None
         return {"do": "threaten", "threat": self.threat.model_dump(mode="json", exclude_defaults=True)}
 

@@ -27,13 +27,12 @@ from behaviours.components import (
     Struck,
     Sustained,
 )
-from behaviours.launching import launch_threats, threaten, throw
+from behaviours.launching import launch_threats, make_of, threaten, throw
 from behaviours.measure.observing import Observer
 from behaviours.measure.report import report_of
 from behaviours.overriding import override
 from behaviours.perceive.flying import clear_away, fly_balls
 from behaviours.perceive.senses import watch_free_threats
-from behaviours.perceive.threats import make_threat
 from behaviours.placing import placed
 from behaviours.reaction import advance_reactions, notice
 from behaviours.recover.getting_up import get_up
@@ -42,8 +41,8 @@ from behaviours.recover.library import FindClip, clip_for, gather_libraries
 from behaviours.recover.search import Library
 from behaviours.respond.contact import meet_balls
 from behaviours.respond.response import step_bodies
-from behaviours.scenario import check_threat
-from behaviours.scenario_spec import CharacterSpec, Scenario, ThreatSpec
+from behaviours.scenario import check_threat, check_throw
+from behaviours.scenario_spec import BallSpec, CharacterSpec, Scenario, ThreatSpec
 from behaviours.settings import Settings
 from behaviours.settle.settling import settle_poses
 from behaviours.stance.shape import mix, shape
@@ -179,22 +178,27 @@ def _spawn_character(world: World, row: int, spec: CharacterSpec) -> None:
 def apply_command(world: World, command: Command) -> None:
     """What comes in from outside, as data, before a tick. BadInput where it is neither of
 
-    {"do": "throw", position_m, velocity_mps, kind, size, at, ...}: a ball from somewhere, that may miss;
+    {"do": "throw", position_m, velocity_mps, at: which character, and what `ThrowSpec` has}: a ball that may miss;
     {"do": "threaten", "threat": {what a scenario's threat says}}: one that comes as a scripted threat does, from now.
     """
     if command.get("do") == "threaten":
-        threaten(world, check_threat(command["threat"]))
+        threat = check_threat(command.get("threat"))
+        _row_of(world, threat)
+        threaten(world, threat)
         return
     if command.get("do") != "throw":
         raise BadInput("command", f"unknown command {command.get('do')!r}; expected 'throw' or 'threaten'")
-    velocity = tuple(command["velocity_mps"])
-    kind = command.get("kind", "volleyball")
-    given = {key: command[key] for key in ("radius_m", "mass_kg", "size_means", "drag") if key in command}
-    make = make_threat(kind, math.dist(velocity, (0.0, 0.0, 0.0)), command.get("size", 0.5), **given)
-    at = world.assets.character_rows[command.get("at", 0)]
-    throw(
-        world, at, kind, make, tuple(command["position_m"]), velocity, tuple(command.get("spin_radps", (0.0, 0.0, 0.0)))
-    )
+    ball = check_throw(command)
+    make = make_of(ball, math.dist(ball.velocity_mps, (0.0, 0.0, 0.0)))
+    throw(world, _row_of(world, ball), ball.kind, make, ball.position_m, ball.velocity_mps, ball.spin_radps)
+
+
+def _row_of(world: World, ball: BallSpec) -> int:
+    """Of the character that it is meant for. BadInput where there is none."""
+    rows = world.assets.character_rows
+    if ball.at_character >= len(rows):
+        raise BadInput("command", f"at character {ball.at_character}: there are {len(rows)}, counted from 0")
+    return rows[ball.at_character]
 
 
 class Simulation:

@@ -123,6 +123,42 @@ def test_unknown_commands_are_refused():
         apply_command(simulation.world, {"do": "juggle"})
 
 
+@pytest.mark.parametrize(
+    ("changes", "message"),
+    [
+        ({"velocity_mps": None}, "velocity_mps"),
+        ({"position_m": (np.nan, 0.0, 1.0)}, "position_m"),
+        ({"velocity": (1.0, 0.0, 0.0)}, "unknown key 'throw.velocity'; expected one of velocity_mps"),
+        ({"kind": "anvil"}, "unknown kind 'anvil'"),
+        ({"at": 1}, "at character 1: there are 1, counted from 0"),
+        ({"do": "threaten"}, "expected a table of keys"),
+        ({"do": "threaten", "threat": {"speed_mps": -3.0}}, "threat.speed_mps"),
+        ({"do": "threaten", "threat": {"at_character": 2}}, "at character 2"),
+        ({"at": -1}, "greater than or equal to 0"),
+    ],
+)
+def test_a_throw_that_no_ball_can_fly_is_refused(changes, message):
+    simulation = simulation_of(observe=False)
+    command = {"do": "throw", "position_m": (4.0, 0.0, 1.6), "velocity_mps": (-9.0, 0.0, 0.0)}
+    command = {key: value for key, value in {**command, **changes}.items() if value is not None}
+    before = simulation.world.digest()
+    with pytest.raises(BadInput) as refused:
+        apply_command(simulation.world, command)
+    assert message in refused.value.message
+    assert simulation.world.digest() == before
+
+
+def test_places_of_a_throw_may_be_arrays():
+    one, other = (simulation_of(observe=False).world for _ in range(2))
+    place, velocity = (4.0, 0.5, 1.75), (-9.0, 0.25, 0.5)
+    apply_command(one, {"do": "throw", "position_m": place, "velocity_mps": velocity, "mass_kg": 0.5})
+    arrays = {"position_m": np.array(place, np.float32), "velocity_mps": np.array(velocity)}
+    apply_command(other, {"do": "throw", "mass_kg": 0.5, **arrays})
+    assert one.digest() == other.digest()
+    (ball,) = one.rows(Flight)
+    assert one[Flight].mass_kg[ball] == 0.5
+
+
 @pytest.mark.parametrize("azimuth", [25.0, 80.0, 150.0])
 @pytest.mark.parametrize("name", ["sway", "walk"])
 def test_a_mirrored_threat_at_a_mirrored_clip_gives_the_mirrored_run(name, azimuth, library_clip):
