@@ -1,0 +1,1 @@
+"""What a user starts: the `brace` command (`cli`), the figures, the window's play, and short programs to read."""

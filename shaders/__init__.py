@@ -1,0 +1,1 @@
+"""GLSL sources, read by `engine.render.shader_source`."""
