@@ -10,6 +10,7 @@ from __future__ import annotations
 import contextlib
 import os
 import re
+import shutil
 import sys
 from collections.abc import Callable
 from pathlib import Path
@@ -126,7 +127,7 @@ def on_compiling(tell: Callable[[str], None]) -> None:
 
 
 def terminal_line(text: str) -> None:
-    """Progress that overwrites itself on a terminal and is silent in a pipe."""
+    """Progress that overwrites itself on a terminal, where it must fit into one line, and is silent in a pipe."""
     if sys.stderr.isatty():
-        sys.stderr.write(f"\r\033[K{text[:100]}")
+        sys.stderr.write(f"\r\033[K{text[: shutil.get_terminal_size().columns - 1]}")
         sys.stderr.flush()

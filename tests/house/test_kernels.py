@@ -1,12 +1,14 @@
 """A compiled kernel never outlives a source that it was compiled from, and drags nothing along that costs set-up."""
 
 import ast
+import io
 import os
 import re
+import sys
 
 import pytest
 
-from demos.kernels import forget_stale, newest_kernel_source_s
+from demos.kernels import forget_stale, newest_kernel_source_s, terminal_line
 from tests.conftest import ROOT
 
 SOURCES = {
@@ -45,6 +47,18 @@ def kept(tree):
 def test_nothing_is_thrown_away_without_an_edit(tree):
     assert forget_stale(tree) == []
     assert kept(tree) == {"vector", "arm", "block", "lean"}
+
+
+def test_progress_stays_in_one_line_of_a_narrow_terminal(monkeypatch):
+    class Terminal(io.StringIO):
+        def isatty(self):
+            return True
+
+    monkeypatch.setattr("sys.stderr", Terminal())
+    monkeypatch.setenv("COLUMNS", "60")
+    terminal_line("compiling kernels: 12, behaviours.protect.sustained.a_name_that_goes_on_for_long")
+    (line,) = sys.stderr.getvalue().split("\r\033[K")[1:]
+    assert line == "compiling kernels: 12, behaviours.protect.sustained.a_name_"
 
 
 def test_only_edits_of_what_ticks_run_make_a_window_wait(tree):
