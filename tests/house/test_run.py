@@ -172,6 +172,21 @@ def test_a_python_out_of_bounds_is_one_line(tmp_path, version):
     assert done.stderr == f"error[python]: {expected}\n"
 
 
+@pytest.mark.parametrize("version", [None, "3.10"])
+def test_a_python_that_only_uv_knows_will_do(tmp_path, version):
+    own = Checkout(tmp_path, version=version)
+    elsewhere = tmp_path / "uv's own"
+    elsewhere.mkdir()
+    python = elsewhere / "python3"
+    python.write_text(STAND_IN.format(version="3.12", bin=elsewhere, pip_exit=0, pip_says=""))
+    uv = own.bin / "uv"
+    uv.write_text(f'#!/bin/sh\ncase "$*" in "python find >=3.11,<3.15") echo "{python}" ;; *) exit 1 ;; esac\n')
+    for program in (python, uv):
+        program.chmod(0o755)
+    assert own.run("react").returncode == 7
+    assert (elsewhere / "calls").read_text().startswith("pip -m pip install")
+
+
 def test_no_python_is_one_line(tmp_path):
     done = Checkout(tmp_path, version=None).run("demo")
     assert done.returncode == 3
