@@ -53,22 +53,31 @@ def register(subparsers) -> None:
 
 
 def run(args: argparse.Namespace) -> None:
-    from behaviours.stance import report
-    from behaviours.stance.shape_sets import SETS, meaning_of
     from demos.kernels import get_kernels_ready
-    from engine.core.errors import BadInput
 
     if args.list:
-        print(
-            "\n".join(
-                f"{name:<20} {entry.low:+.0f} to {entry.high:+.0f}  {entry.meaning}" for name, entry in SETS.items()
-            )
-        )
+        _list()
         return
     get_kernels_ready()
     if args.crouch:
         _run_crouch(args)
-        return
+    else:
+        _run_set(args)
+
+
+def _list() -> None:
+    from behaviours.stance.shape_sets import SETS
+
+    for name, entry in SETS.items():
+        print(f"{name:<20} {entry.low:+.0f} to {entry.high:+.0f}  {entry.meaning}")
+
+
+def _run_set(args) -> None:
+    """One stance, and with --then those that follow it: report, picture, film. Words are checked before any work."""
+    from behaviours.stance import report
+    from behaviours.stance.shape_sets import meaning_of
+    from engine.core.errors import BadInput
+
     if args.set is None:
         raise BadInput("usage", "expected a SET (`brace stance --list` shows them)")
     own = _own_shape(args.set)
