@@ -181,9 +181,7 @@ class Scenario(Section):
     character: Annotated[tuple[CharacterSpec, ...], Field(min_length=1)] = (CharacterSpec(),)
     threat: tuple[ThreatSpec, ...] = ()
     command: tuple[CommandSpec, ...] = ()  # applied before the tick of their moment
-    library: tuple[str, ...] | None = (
-        None  # clips that a search for a new motion looks through; None: all that are here
-    )
+    library: tuple[str, ...] | None = None  # clips that a search for a new motion looks through; None: all here
     settings: dict[str, Any] = {}
 
     @model_validator(mode="after")

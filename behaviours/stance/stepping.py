@@ -52,10 +52,8 @@ def standing_on(body: Body, shape: Shape, feet: Footprints, side: int, share: fl
     flat = footprints.raised(body, feet, -feet.toe_rad)
     over = share if side == LEFT else -share
     place_m = footprints.middle_m(body, flat, over)
-    numbers, ready = (
-        shape.numbers,
-        max(LEAST_KNEE_RAD, *(_knee_to_reach(body, flat, place_m, k) for k in (LEFT, RIGHT))),
-    )
+    numbers = shape.numbers
+    ready = max(LEAST_KNEE_RAD, *(_knee_to_reach(body, flat, place_m, k) for k in (LEFT, RIGHT)))
     eased = changed(
         shape, dominant=FOOT_NAMES[side], trade_off=PELVIS_EXACT, pelvis_z_rad=0.0, rise_rad=0.0, balance_x=0.0,
         knee_left_rad=max(numbers.knee_left_rad, ready), knee_right_rad=max(numbers.knee_right_rad, ready),
