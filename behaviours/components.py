@@ -35,7 +35,8 @@ class Playback(Component):
     """The clip that a character plays, and where its path lies in the world."""
 
     clip = column(dtype=np.int64)  # row of world.assets.clips
-    offset_s = column()  # clip time at tick 0: time = offset + tick / 120
+    offset_s = column()  # clip time at tick 0, at its own pace: time = offset + tick / 120
+    own_pace = column()  # the tick from which on it has that: after a reaction it is taken up slowly
     place_m = column(2)  # the clip's origin in the world
     heading_rad = column()  # and the clip's yaw there
 
@@ -80,6 +81,7 @@ class Blend(Component):
     from_rotations = column(JOINT_COUNT, 4)
     to_root_m = column(3)
     to_rotations = column(JOINT_COUNT, 4)
+    lead_s = column()  # of a way back: so much of the clip is played on the way, up to the second end; 0: that is still
     since = column(dtype=np.int64)
     ticks = column()  # how long it lasts; not whole, since slack stretches it
     lands = column(dtype=np.int64)  # up to this tick of protection the first end flies on as the clip does, then lands
@@ -172,6 +174,7 @@ class Feet(Component):
     lift_m = column(2)
     since = column(2, dtype=np.int64)
     ticks = column(2)
+    goes_on = column(2, dtype=bool)  # its step ends where the clip's foot is by then, and as fast as that moves
     planted = column(2, dtype=bool)  # flagged: stands, and must not slide
 
 

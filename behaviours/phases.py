@@ -45,7 +45,7 @@ def set_blend(world, row: int, tick: int, start: Pose, end: Pose, ticks: float) 
     b, f = world[Blend], world[Feet]
     b.from_root_m[row], b.from_rotations[row] = start
     b.to_root_m[row], b.to_rotations[row] = end
-    b.since[row], b.ticks[row] = tick - 1, ticks
+    b.since[row], b.ticks[row], b.lead_s[row] = tick - 1, ticks, 0.0
     body = body_of(world, row)
     positions, _ = joints_of(body, start)
     b.support[row] = primary_support(f.planted[row], positions[list(ANKLES)], com_of(body, start))

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import math
+
 import numpy as np
 
 from behaviours.components import Character, Phase, Playback, Posture, Reaction
@@ -39,7 +41,20 @@ def clip_of(world, row: int) -> Clip:
 
 def clip_time_s(world, row: int, tick: float) -> float:
     """Where in its clip a character is at a tick, if it plays on."""
-    return float(world[Playback].offset_s[row]) + tick * TICK_S
+    p = world[Playback]
+    behind_s = max(0.0, float(p.own_pace[row]) - tick) * TICK_S
+    still_s = 0.5 * pace_rise(world.assets.settings.recovery.lead_s) * behind_s * behind_s if behind_s > 0.0 else 0.0
+    return float(p.offset_s[row]) + tick * TICK_S + still_s
+
+
+def pace_rise(lead_s: float) -> float:
+    """How fast the pace of a clip rises that is taken up again, 1/s: from none to its own in twice the lead."""
+    return 0.5 / max(lead_s, 1e-6)
+
+
+def pace_after(played_s: float, lead_s: float) -> float:
+    """The pace, 0 to 1, that a clip has come to when so much of the lead has been played, rising evenly from none."""
+    return min(1.0, math.sqrt(played_s / lead_s)) if lead_s > 0.0 else 1.0
 
 
 def clip_pose(world, row: int, time_s: float) -> Pose:
@@ -55,9 +70,17 @@ def planted_in_clip(world, row: int, time_s: float) -> np.ndarray:
     return planted_at(clip_of(world, row), max(0.0, time_s))
 
 
-def play_from(world, row: int, tick: int, time_s: float) -> None:
-    """Plays on so that the clip is at this time at that tick."""
-    world[Playback].offset_s[row] = time_s - tick * TICK_S
+def play_from(world, row: int, tick: int, time_s: float, pace: float) -> None:
+    """Plays on so that the clip is at this time at that tick, and at this pace, which rises from there to its own."""
+    p, rise = world[Playback], pace_rise(world.assets.settings.recovery.lead_s)
+    behind_s = (1.0 - pace) / rise
+    p.own_pace[row] = tick + behind_s / TICK_S
+    p.offset_s[row] = time_s - tick * TICK_S - 0.5 * rise * behind_s * behind_s
+
+
+def return_clip_s(world, row: int) -> float:
+    """The clip time that a reaction goes back to."""
+    return float(world[Reaction].clip_s[row]) + world.assets.settings.timing.sustained_ahead_s
 
 
 def perception_clip_s(world, row: int, tick: int) -> float:

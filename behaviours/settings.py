@@ -287,6 +287,9 @@ class Recovery(NamedTuple):
 
     part_one_s: Annotated[float, Constant("s", "4.2", "simulation blends into the held sustained pose")] = 0.260
     part_two_s: Annotated[float, Constant("s", "4.2", "the rest of the way to the return pose")] = 0.375
+    lead_s: Annotated[
+        float, Constant("s", "A7", "of the clip, played on the way back to it: it takes twice that to its own pace")
+    ] = 0.15
     part_one_share: Annotated[float, Constant("1", "4.1.3", "of the return blend that is over after part one")] = 0.25
     hold_s: Annotated[float, Constant("s", "4.2", "the sustained pose is held when nothing was touched")] = 1.0 / 3.0
     land_within_s: Annotated[

@@ -212,16 +212,21 @@ def fastest_in_physics(track: Track) -> Worst:
 
 def snap(track: Track) -> Worst:
     """The greatest change of any joint's velocity from one tick to the next, m/s, outside the physics: what a pop is,
-    also where no seam is. Where the clip plays, only what is shown beyond it counts.
+    also where no seam is. Where the clip plays, on the way back to it too, only what is shown beyond it counts.
     """
     if len(track.phase) < 3:
         return Worst(0.0, 0, "")
     joints_m = joints_of(track.body, track.pose)[0]
     change_m = np.diff(joints_m, 2, axis=0)
-    plays = np.array([pose is not None for pose in track.played])
-    for k in np.flatnonzero(plays[2:] & plays[1:-1] & plays[:-2]):
-        clip_m = [joints_of(track.body, pose)[0] for pose in track.played[k : k + 3] if pose is not None]
-        change_m[k] -= np.diff(clip_m, 2, axis=0)[0]
+    clips = [
+        track.led_by.get(tick) if pose is None else (1.0, pose)
+        for tick, pose in zip(track.tick, track.played, strict=True)
+    ]
+    for k in range(len(clips) - 2):
+        three = [clip for clip in clips[k : k + 3] if clip is not None]
+        if len(three) == 3:
+            clip_m = [joints_of(track.body, pose)[0] for _, pose in three]
+            change_m[k] -= three[1][0] * np.diff(clip_m, 2, axis=0)[0]
     physics = np.isin(track.phase, PHYSICS)
     chosen = reacting(track)[2:] & ~(physics[2:] | physics[1:-1] | physics[:-2])
     change_mps = np.linalg.norm(change_m, axis=2) / TICK_S * chosen[:, None]

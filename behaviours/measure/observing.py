@@ -16,8 +16,8 @@ from behaviours.playing import body_of, clip_pose, clip_time_s
 from behaviours.settle import feet as foot_plan
 from behaviours.settle.seams import MOMENT
 from behaviours.settle.settling import settled_pose
-from behaviours.settle.sources import blend_ends, blended, simulated_pose
-from behaviours.timing import TICK_S, whole_ticks
+from behaviours.settle.sources import blend_ends, blended, second_end, simulated_pose
+from behaviours.timing import TICK_S, ease, whole_ticks
 from engine.body.kinematics import com_of, joints_of
 from engine.body.skeleton import ELBOWS, SHOULDERS, WRISTS, Body, Pose
 from engine.body.two_bones import SOFT_REACH_M
@@ -39,6 +39,7 @@ class Track:
     planted: list[np.ndarray] = field(default_factory=list)  # flagged: may not slide
     stands: list[tuple[bool, bool]] = field(default_factory=list)  # by the plan: held, or its step yet to begin
     played: list[Pose | None] = field(default_factory=list)  # the clip's own pose, at ticks at which it plays
+    led_by: dict[int, tuple[float, Pose]] = field(default_factory=dict)  # by tick: on the way back, its share and pose
     made_from: list[Pose] = field(default_factory=list)  # and its poses that a reaction was made from
     seams: list[Seam] = field(default_factory=list)
     lines: list[Line] = field(default_factory=list)
@@ -121,6 +122,9 @@ def _note(world, row: int, tick: int, track: Track) -> None:
     track.clip.append(int(world[Playback].clip[row]))
     plays = r.phase[row] == Phase.PLAY
     track.played.append(clip_pose(world, row, clip_time_s(world, row, tick)) if plays else None)
+    if r.phase[row] == Phase.RECOVER_RETURN and world[Blend].lead_s[row] > 0.0:
+        progress = (tick - world[Blend].since[row]) / world[Blend].ticks[row]
+        track.led_by[tick] = (ease(progress), second_end(world, row, tick))
     if r.since[row] == tick and not plays:
         track.made_from.extend(_poses_made_from(world, row))
     physics = world[Ragdoll].active[row]

@@ -12,8 +12,7 @@ import math
 
 from behaviours.components import NOBODY, Blend, Feet, Phase, Reaction, Struck, Sustained
 from behaviours.phases import STATE, enter, keep_continuous
-from behaviours.playing import body_of, clip_pose
-from behaviours.recover.recovery import return_clip_s
+from behaviours.playing import body_of, clip_pose, return_clip_s
 from behaviours.recover.search import Found, best_window, enter_window, say_found, window_since_blow
 from behaviours.recover.windows import joint_shares
 from behaviours.settle import feet as foot_plan
@@ -67,6 +66,7 @@ def begin_getting_up(world, row: int, tick: int, found: Found) -> None:
         begins = clip_pose(world, row, return_clip_s(world, row))
         b.from_root_m[row], b.from_rotations[row] = shown(world, row)[0]
         b.to_root_m[row], b.to_rotations[row] = begins
+        b.lead_s[row] = 0.0
         b.since[row], b.ticks[row], b.support[row] = tick - 1, settings.get_up_blend_s / TICK_S, NOBODY
         s.root_m[row], s.rotations[row] = begins
         for side in range(2):

@@ -10,8 +10,8 @@ import numpy as np
 
 from behaviours.components import Feet, Phase, Playback, Reaction, Struck, Sustained
 from behaviours.phases import STATE, enter, keep_continuous
-from behaviours.playing import body_of, clip_of, clip_time_s
-from behaviours.recover.recovery import begin_return, return_clip_s
+from behaviours.playing import body_of, clip_of, clip_time_s, return_clip_s
+from behaviours.recover.recovery import begin_return
 from behaviours.recover.search import Window, best_window, enter_window
 from behaviours.settle import feet as foot_plan
 from behaviours.settle.seams import shown

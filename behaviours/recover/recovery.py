@@ -15,20 +15,17 @@ import numpy as np
 from behaviours.blends.blending import primary_support
 from behaviours.components import Blend, Feet, Playback, Reaction, Sustained
 from behaviours.placing import placed
-from behaviours.playing import body_of, clip_pose, planted_in_clip, play_from
+from behaviours.playing import body_of, clip_of, clip_pose, pace_after, planted_in_clip, play_from, return_clip_s
 from behaviours.settle import feet as foot_plan
 from behaviours.settle.seams import shown
 from behaviours.settle.sources import choose_first_ways, choose_hand_ways
 from behaviours.timing import TICK_S, whole_ticks
-from engine.body import footing
+from engine.body import footing, support
 from engine.body.kinematics import com_of, joints_of
 from engine.body.skeleton import ANKLES, Pose
-from engine.maths import quaternion
+from engine.maths import quaternion, vector
 
-
-def return_clip_s(world, row: int) -> float:
-    """The clip time that a reaction goes back to."""
-    return float(world[Reaction].clip_s[row]) + world.assets.settings.timing.sustained_ahead_s
+JOLT_MPS = 1.0  # that a pelvis changes its velocity by from one tick to the next: 12 g
 
 
 def return_blend_ticks(world) -> float:
@@ -100,10 +97,12 @@ def plan_return(world, row: int, tick: int, begins: float) -> None:
     sustained = Pose(s.root_m[row].copy(), s.rotations[row].copy())
     land_first(world, row)
     support_side = anchor_clip(world, row)
-    back = clip_pose(world, row, return_clip_s(world, row))
+    back_s = return_clip_s(world, row)
+    back = clip_pose(world, row, back_s)
     b.from_root_m[row], b.from_rotations[row] = sustained
     b.to_root_m[row], b.to_rotations[row] = back
     b.since[row], b.ticks[row], b.support[row] = round(begins), return_blend_ticks(world), support_side
+    b.lead_s[row] = lead_s(world, row, support_side)
     for side in range(2):
         start, end = foot_plan.planned(f, row, side), foot_plan.footing_of(body, back, side)
         since, ticks = b.since[row], b.ticks[row]
@@ -112,8 +111,51 @@ def plan_return(world, row: int, tick: int, begins: float) -> None:
                 f.from_m[row, side].copy(), f.from_turned[row, side].copy(), f.from_toe[row, side].copy()
             )
             since, ticks = f.since[row, side], b.since[row] + b.ticks[row] - f.since[row, side]
-        foot_plan.hold_or_step(f, row, side, start, end, since, ticks, world.assets.settings.balance)
+        balance, lead = world.assets.settings.balance, float(b.lead_s[row])
+        foot_plan.hold_or_step(f, row, side, start, end, since, ticks, balance)
+        if lead > 0.0:
+            if f.mode[row, side] == foot_plan.HELD and not stays(world, row, side, back_s - lead, end):
+                foot_plan.step(f, row, side, start, end, since, ticks, balance)
+            f.goes_on[row, side] = f.mode[row, side] == foot_plan.STEPPING
     choose_hand_ways(world, row)
+
+
+def lead_s(world, row: int, side: int) -> float:
+    """How much of the clip is played on the way back, up to the return pose: at most what there is of it since the foot
+    of the side that supports has come down.
+
+    Else one would come to rest in the return pose, on one leg perhaps, before the clip goes on.
+    """
+    recovery, back_s = world.assets.settings.recovery, return_clip_s(world, row)
+    most_s = min(recovery.lead_s, 0.5 * float(world[Blend].ticks[row]) * TICK_S)
+    if not clip_of(world, row).loops:
+        most_s = min(most_s, back_s)
+    ticks = 0
+    while (ticks + 1) * TICK_S <= most_s + 1e-9:
+        before_s = back_s - (ticks + 1) * TICK_S
+        if not is_down(world, row, side, before_s) or jolts(world, row, before_s + TICK_S):
+            break
+        ticks += 1
+    return ticks * TICK_S
+
+
+def jolts(world, row: int, time_s: float) -> bool:
+    """Whether a clip jumps at a clip time, as recordings do where markers were lost: no pelvis moves like that."""
+    before, here, after = (clip_pose(world, row, time_s + k * TICK_S).root_m for k in (-1, 0, 1))
+    return vector.length(vector.subtract(before + after, 2.0 * here)) > JOLT_MPS * TICK_S
+
+
+def is_down(world, row: int, side: int, time_s: float) -> bool:
+    """Whether a foot touches the ground at a clip time, be it with its toes."""
+    body = body_of(world, row)
+    sole_m = support.sole_points(body, *joints_of(body, clip_pose(world, row, time_s)))[side]
+    return bool(sole_m[:, 2].min() < support.CONTACT_M)
+
+
+def stays(world, row: int, side: int, time_s: float, end: foot_plan.Footing) -> bool:
+    """Whether a foot is at a clip time already where it ends."""
+    at = foot_plan.footing_of(body_of(world, row), clip_pose(world, row, time_s), side)
+    return foot_plan.as_good_as(at, end, world.assets.settings.balance)
 
 
 def anchor_clip(world, row: int) -> int:
@@ -137,7 +179,8 @@ def anchor_clip(world, row: int) -> int:
 
 
 def resume_clip(world, row: int, tick: int) -> None:
-    """The clip runs again, from the return pose at the last tick; the feet go with it."""
-    play_from(world, row, tick - 1, return_clip_s(world, row))
+    """The clip runs again, from the return pose at the last tick, as fast as it has come to it; the feet go with it."""
+    pace = pace_after(float(world[Blend].lead_s[row]), world.assets.settings.recovery.lead_s)
+    play_from(world, row, tick - 1, return_clip_s(world, row), pace)
     for side in range(2):
         foot_plan.let_go(world[Feet], row, side)

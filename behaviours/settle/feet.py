@@ -56,14 +56,30 @@ def goals_at(tick, mode, ankle_m, turned, toe, from_m, from_turned, from_toe, fr
     return FootGoals(goal_m, goal_turned, goal_toe, bound, bears)
 
 
-def goals_of(feet, row: int, tick: float) -> FootGoals:
-    """The goals of one character's feet at a tick."""
+class Footing(NamedTuple):
+    """How a foot is placed. World; the toe in the ankle's frame."""
+
+    ankle_m: np.ndarray  # (3,)
+    turned: np.ndarray  # (4,)
+    toe: np.ndarray  # (4,)
+
+
+def goals_of(feet, row: int, tick: float, clips: tuple[Footing, Footing] | None = None) -> FootGoals:
+    """The goals of one character's feet at a tick; of one that goes on with the clip, on its way to where it is in that
+    just then, if `clips` says where both are.
+    """
+    ankle_m, turned, toe = feet.ankle_m[row], feet.turned[row], feet.toe[row]
+    if clips is not None and feet.goes_on[row].any():
+        ankle_m, turned, toe = ankle_m.copy(), turned.copy(), toe.copy()
+        for side in range(2):
+            if feet.goes_on[row, side]:
+                ankle_m[side], turned[side], toe[side] = clips[side]
     return goals_at(
         float(tick),
         feet.mode[row],
-        feet.ankle_m[row],
-        feet.turned[row],
-        feet.toe[row],
+        ankle_m,
+        turned,
+        toe,
         feet.from_m[row],
         feet.from_turned[row],
         feet.from_toe[row],
@@ -77,14 +93,7 @@ def goals_of(feet, row: int, tick: float) -> FootGoals:
 def let_go(feet, row: int, side: int) -> None:
     """The foot goes with the pose from now on."""
     feet.mode[row, side] = FREE
-
-
-class Footing(NamedTuple):
-    """How a foot is placed. World; the toe in the ankle's frame."""
-
-    ankle_m: np.ndarray  # (3,)
-    turned: np.ndarray  # (4,)
-    toe: np.ndarray  # (4,)
+    feet.goes_on[row, side] = False
 
 
 def footing_of(body, pose, side: int) -> Footing:
@@ -104,6 +113,7 @@ def hold(feet, row: int, side: int, at: Footing) -> None:
     feet.ankle_m[row, side], feet.turned[row, side], feet.toe[row, side] = at
     feet.from_m[row, side], feet.from_turned[row, side], feet.from_toe[row, side] = at
     feet.lift_m[row, side] = 0.0
+    feet.goes_on[row, side] = False
 
 
 def step(feet, row: int, side: int, start: Footing, end: Footing, tick: int, ticks: float, balance) -> None:
@@ -112,6 +122,7 @@ def step(feet, row: int, side: int, start: Footing, end: Footing, tick: int, tic
     feet.from_m[row, side], feet.from_turned[row, side], feet.from_toe[row, side] = start
     feet.ankle_m[row, side], feet.turned[row, side], feet.toe[row, side] = end
     feet.since[row, side], feet.ticks[row, side] = tick, ticks
+    feet.goes_on[row, side] = False
     feet.from_down[row, side] = float(feet.planted[row, side])
     far = vector.distance(feet.from_m[row, side], feet.ankle_m[row, side])
     # full height from the distance at which a foot counts as moved; below that in proportion, so nothing pops
@@ -122,11 +133,16 @@ def hold_or_step(feet, row: int, side: int, start: Footing, end: Footing, tick: 
     """Holds a foot that is as good as there already; else steps it there. It stands until `tick`, if that is yet to
     come.
     """
-    near = vector.distance(start.ankle_m, end.ankle_m) < balance.foot_tolerance_m * 10.0
-    if near and quaternion.angle_between(start.turned, end.turned) < math.radians(0.5):
+    if as_good_as(start, end, balance):
         hold(feet, row, side, start)
     else:
         step(feet, row, side, start, end, tick, ticks, balance)
+
+
+def as_good_as(one: Footing, other: Footing, balance) -> bool:
+    """Whether a foot that is in one place is as good as in the other already."""
+    near = vector.distance(one.ankle_m, other.ankle_m) < balance.foot_tolerance_m * 10.0
+    return bool(near and quaternion.angle_between(one.turned, other.turned) < math.radians(0.5))
 
 
 def stands(feet, row: int, side: int, tick: int) -> bool:
@@ -136,8 +152,10 @@ def stands(feet, row: int, side: int, tick: int) -> bool:
 
 
 def land_finished_steps(feet, rows, tick: int) -> None:
-    """Feet whose step is over stand from now on."""
+    """Feet whose step is over stand from now on, but for those that go on with the clip."""
     for row in rows:
         for side in range(2):
+            if feet.goes_on[row, side]:
+                continue
             if feet.mode[row, side] == STEPPING and tick - feet.since[row, side] >= feet.ticks[row, side]:
                 hold(feet, row, side, planned(feet, row, side))

@@ -7,6 +7,8 @@ was.
 
 from __future__ import annotations
 
+import math
+
 import numpy as np
 
 from behaviours.blends.arm_ways import HandWays, straight_ways, swung_ways
@@ -16,8 +18,8 @@ from behaviours.blends.held_feet import FootGoals, knees_between
 from behaviours.blends.lying import blend_lying
 from behaviours.blends.pushed_out import let_lines_be, push_arms_out
 from behaviours.components import NOBODY, Blend, Character, Feet, Phase, Posture, Ragdoll, Reaction
-from behaviours.playing import body_of, capsules_of, clip_pose, clip_time_s
-from behaviours.settle.feet import goals_of
+from behaviours.playing import body_of, capsules_of, clip_pose, clip_time_s, pace_rise, return_clip_s
+from behaviours.settle.feet import footing_of, goals_of
 from behaviours.timing import TICK_S, ease, overshoot, whole_ticks
 from engine.body.kinematics import joints_into, joints_of
 from engine.body.overlap import PAIRS
@@ -97,8 +99,40 @@ def blend_ends(world, row: int, tick: float) -> tuple[BlendEnd, BlendEnd]:
         first = flying(world, row, tick, first)
     return (
         blend_end(body, shape, first.root_m, first.rotations),
-        blend_end(body, shape, b.to_root_m[row].copy(), b.to_rotations[row].copy()),
+        blend_end(body, shape, *second_end(world, row, tick)),
     )
+
+
+def second_end(world, row: int, tick: float) -> Pose:
+    """Where the present blend leads, at a tick: a still pose; on the way back to a clip, that pose on the pelvis and
+    legs of the clip, which is played up to there and comes to its own pace.
+    """
+    b = world[Blend]
+    lead_s = float(b.lead_s[row])
+    if lead_s == 0.0:
+        return Pose(b.to_root_m[row].copy(), b.to_rotations[row].copy())
+    left_s = (float(b.since[row]) + float(b.ticks[row]) - tick) * TICK_S
+    rise = pace_rise(world.assets.settings.recovery.lead_s)
+    on = clip_pose(world, row, return_clip_s(world, row) - still_to_play_s(left_s, lead_s, rise))
+    on.rotations[WAIST : HIPS[0]] = b.to_rotations[row, WAIST : HIPS[0]]
+    return on
+
+
+def still_to_play_s(left_s: float, lead_s: float, rise: float) -> float:
+    """How much of a clip is left to be played, of a lead, when so much time is left, seconds: its pace rises evenly
+    from none, by `rise` a second, and at the end goes on rising to its own.
+    """
+    takes_s = math.sqrt(2.0 * lead_s / rise)
+    return lead_s - 0.5 * rise * max(0.0, takes_s - left_s) ** 2
+
+
+def planned_feet(world, row: int, tick: float) -> FootGoals:
+    """Where the feet are planned to be at a tick."""
+    f = world[Feet]
+    if not f.goes_on[row].any():
+        return goals_of(f, row, tick)
+    body, on = body_of(world, row), second_end(world, row, tick)
+    return goals_of(f, row, tick, (footing_of(body, on, 0), footing_of(body, on, 1)))
 
 
 def flying(world, row: int, tick: float, pose: Pose) -> Pose:
@@ -155,7 +189,7 @@ def between(world, row, tick, start, end, weight, ways, knees) -> tuple[Pose, tu
     if support == NOBODY:
         blend_lying(body, start, end, weight, ways, root_m, rotations)
         return Pose(root_m, rotations), (0.0, 0.0)
-    goals = goals_of(world[Feet], row, tick)
+    goals = planned_feet(world, row, tick)
     led_m = blend_into(body, start, end, weight, support, goals, ways, knees, root_m, rotations)
     return Pose(root_m, rotations), led_m
 
@@ -173,12 +207,13 @@ def choose_hand_ways(world, row: int) -> None:
     b.knees_m[row] = joints_of(body, Pose(b.from_root_m[row], b.from_rotations[row]))[0][list(KNEES)]
     # of bodies that lie, arms are swung: nobody's hands go straight lines under them
     ways = swung_ways() if b.support[row] == NOBODY else straight_ways()
-    start, end = blend_ends(world, row, b.since[row])
-    knees = knees_between(start, end, False, b.knees_m[row])
-    progress = np.linspace(0.0, 1.0, MOMENTS)
-    between_them = [
-        between(world, row, b.since[row] + u * b.ticks[row], start, end, ease(u), ways, knees)[0] for u in progress
-    ]
+    start, end = blend_ends(world, row, b.since[row])[0], blend_ends(world, row, b.since[row] + b.ticks[row])[1]
+    progress, between_them = np.linspace(0.0, 1.0, MOMENTS), []
+    for u in progress:
+        at = b.since[row] + u * b.ticks[row]
+        then = blend_ends(world, row, at)[1] if b.lead_s[row] > 0.0 else end
+        knees = knees_between(start, then, False, b.knees_m[row])
+        between_them.append(between(world, row, at, start, then, ease(u), ways, knees)[0])
     shape = capsules_of(world, row)
     choose_ways(body, shape, start, end, moments_of(body, shape, start, end, progress, between_them), ways)
     b.modes[row], b.bends[row] = ways
@@ -201,7 +236,7 @@ def foot_goals(world, row: int, tick: float, source: Pose) -> FootGoals:
     """Where both ankles are to be: by the plan where a foot stands, else where the source has them: a foot in the air
     may be behind its plan, as far as leg and ankle go, and one that stands may be on its toes.
     """
-    goals = goals_of(world[Feet], row, tick)
+    goals = planned_feet(world, row, tick)
     goals_over(body_of(world, row), *source, *goals)
     return goals
 

@@ -5,8 +5,9 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from behaviours.components import Blend, Phase, Playback
+from behaviours.components import Blend, Phase
 from behaviours.measure.measures import foot_slide_max_m, seam_jumps
+from behaviours.playing import clip_time_s
 from behaviours.timing import TICK_S
 from engine.body.kinematics import joints_of
 from engine.body.skeleton import WRISTS
@@ -37,7 +38,7 @@ def test_the_clip_runs_on_from_a_sixth_of_a_second_after_perception(blocked):
     ends = next(event for event in blocked.world.events if event.kind == "phase" and event.data["name"] == "play")
     at_perception = 0.5 + TICK_S + perceived["tick"] * TICK_S
     # the return pose is reached at the tick before the clip runs again
-    then = blocked.world[Playback].offset_s[0] + (ends.tick - 1) * TICK_S
+    then = clip_time_s(blocked.world, 0, ends.tick - 1)
     assert then == pytest.approx(at_perception + 1 / 6, abs=1e-9)
 
 

@@ -216,6 +216,15 @@ def test_what_the_clip_does_is_no_pop_of_ours():
     assert measures.snap(track).value < 1e-9
 
 
+def test_of_a_way_back_that_the_clip_leads_its_share_of_the_clip_is_no_pop_of_ours():
+    poses = [moved(), moved(), moved(), moved(0.025), moved(0.025)]
+    track = track_of(poses, [Phase.PROTECT] + [Phase.RECOVER_RETURN] * 4)
+    clip = [moved(), moved(), moved(), moved(0.05), moved(0.05)]
+    assert measures.snap(track).value == pytest.approx(3.0)
+    track.led_by = {tick: (0.5, clip[k]) for k, tick in enumerate(track.tick) if k > 0}
+    assert measures.snap(track).value < 1e-9
+
+
 def test_the_com_s_margin_is_that_of_the_planted_feet():
     upright = measures.com_margin_min_m(track_of([STILL], [Phase.PROTECT]))
     tipped = measures.com_margin_min_m(track_of([STILL, bent(PELVIS, 10.0)], [Phase.PROTECT] * 2))

@@ -7,11 +7,20 @@ import math
 import numpy as np
 import pytest
 
-from behaviours.components import Blend, Feet, Phase, Playback, Posture, Reaction, Sustained
-from behaviours.playing import clip_pose, planted_in_clip
-from behaviours.recover.recovery import move_sustained_over_feet, return_blend_ticks, return_clip_s
+from behaviours.components import Blend, Feet, Phase, Posture, Reaction, Sustained
+from behaviours.playing import (
+    clip_pose,
+    clip_time_s,
+    pace_after,
+    pace_rise,
+    planted_in_clip,
+    play_from,
+    return_clip_s,
+)
+from behaviours.recover.recovery import move_sustained_over_feet, return_blend_ticks
 from behaviours.respond.knocked_down import has_fallen
 from behaviours.settle import feet as foot_plan
+from behaviours.settle.sources import still_to_play_s
 from engine.body.footing import sole_depth_m
 from engine.body.kinematics import com_of, joints_of
 from engine.body.skeleton import ANKLES, PELVIS, Pose
@@ -110,9 +119,47 @@ def test_the_clip_runs_on_from_where_the_return_ends():
     while simulation.world[Reaction].phase[0] == Phase.RECOVER_RETURN:
         simulation.step()
     world, tick = simulation.world, simulation.world.tick - 1
-    at_s = world[Playback].offset_s[0] + (tick - 1) / 120
-    assert at_s == pytest.approx(return_clip_s(world, 0), abs=1e-9)
+    assert clip_time_s(world, 0, tick - 1) == pytest.approx(return_clip_s(world, 0), abs=1e-9)
     assert (world[Feet].mode[0] == foot_plan.FREE).all()
+
+
+def test_of_a_lead_so_much_is_left_that_its_pace_rises_evenly_from_none_to_the_clip_s_own():
+    lead_s, left_s = 0.15, np.linspace(0.5, 0.0, 501)
+    to_play_s = np.array([still_to_play_s(float(left), lead_s, pace_rise(lead_s)) for left in left_s])
+    assert to_play_s[left_s >= 2.0 * lead_s] == pytest.approx(lead_s, abs=1e-12)
+    assert to_play_s[-1] == pytest.approx(0.0, abs=1e-12)
+    pace = np.diff(to_play_s) / np.diff(left_s)
+    rising = np.diff(pace)[left_s[2:] < 0.298]
+    assert rising == pytest.approx(rising.mean(), rel=1e-6)
+    assert pace[-1] == pytest.approx(1.0, abs=0.005)
+
+
+@pytest.mark.parametrize("played_s", [0.0, 0.05, 0.15])
+def test_a_clip_that_is_taken_up_again_comes_to_its_own_pace_without_a_jump(played_s):
+    world = until(Phase.RECOVER_RETURN).world
+    play_from(world, 0, 500, 2.0, pace_after(played_s, 0.15))
+    times_s = np.array([clip_time_s(world, 0, tick) for tick in np.linspace(500, 560, 601)])
+    pace = np.diff(times_s) * 1200
+    assert times_s[0] == pytest.approx(2.0, abs=1e-12)
+    assert pace[0] == pytest.approx(math.sqrt(played_s / 0.15), abs=0.01)
+    assert pace[-1] == pytest.approx(1.0, abs=1e-9)
+    assert np.diff(pace).min() > -1e-9  # never slower again,
+    assert np.diff(pace).max() < 1.001 / 0.3 / 1200  # and evenly
+
+
+@pytest.mark.parametrize(("clip", "start_s", "own_mps"), [("walk", 0.3, 1.5), ("walk", 0.75, 1.5), ("run", 0.3, 3.4)])
+def test_nobody_sets_off_at_full_speed_from_standing_still(clip, start_s, own_mps, library_clip):
+    """Back in the clip they come to its speed gently: not, as it was, within two hundredths of a second."""
+    simulation = until(Phase.RECOVER_RETURN, clip=library_clip(clip), start_s=start_s)
+    while simulation.world[Reaction].phase[0] == Phase.RECOVER_RETURN:
+        simulation.step()
+    for _ in range(40):
+        simulation.step()
+    track = track_of(simulation)
+    first = int(np.flatnonzero(np.array(track.phase) == Phase.RECOVER_RETURN)[0])
+    speeds_mps = np.linalg.norm(np.diff(np.array(track.root_m)[first:, :2], axis=0), axis=1) * 120
+    assert speeds_mps[-1] > 0.7 * own_mps
+    assert (speeds_mps[6:] - speeds_mps[:-6]).max() < 0.5 * own_mps  # in a twentieth of a second
 
 
 def shown_moving(world, velocity_mps, tipped_deg=0.0):
