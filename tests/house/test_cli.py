@@ -120,7 +120,7 @@ def test_a_fault_of_ours_is_one_line_too(broken_command, capsys, monkeypatch):
 
 
 def test_a_reader_that_goes_away_is_no_error():
-    words = f"(sleep 0.3; exec {sys.executable} -m demos.cli --help) | true; echo ${{PIPESTATUS[0]}}"
+    words = f'(sleep 0.3; exec "{sys.executable}" -m demos.cli --help) | true; echo ${{PIPESTATUS[0]}}'
     done = subprocess.run(["bash", "-c", words], cwd=ROOT, capture_output=True, text=True)
     assert done.stderr == ""
     assert done.stdout.strip() in ("0", "141")  # whether the pipe broke before the text was out is the kernel's choice
