@@ -152,7 +152,7 @@ def _spawn_character(world: World, row: int, spec: CharacterSpec) -> None:
     if worn is not None:
         pose, before = worn_pose(clip.body, pose, worn), worn_pose(clip.body, before, worn)
     entity = world.spawn(
-        Playback(clip=row, offset_s=spec.start_s + TICK_S, place_m=place, heading_rad=heading),
+        Playback(clip=row, offset_s=spec.start_s + TICK_S, own_pace=-1000.0, place_m=place, heading_rad=heading),
         Posture(
             root_m=pose.root_m, rotations=pose.rotations, before_root_m=before.root_m, before_rotations=before.rotations
         ),

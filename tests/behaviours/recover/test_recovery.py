@@ -147,6 +147,12 @@ def test_a_clip_that_is_taken_up_again_comes_to_its_own_pace_without_a_jump(play
     assert np.diff(pace).max() < 1.001 / 0.3 / 1200  # and evenly
 
 
+def test_a_clip_has_its_own_pace_from_before_a_run_begins():
+    world = simulation_of([], clip="sway").world
+    times_s = [clip_time_s(world, 0, tick) for tick in (-2.0, -1.0, 0.0, 1.0)]
+    assert np.diff(times_s) == pytest.approx(1 / 120, abs=1e-12)
+
+
 @pytest.mark.parametrize(("clip", "start_s", "own_mps"), [("walk", 0.3, 1.5), ("walk", 0.75, 1.5), ("run", 0.3, 3.4)])
 def test_nobody_sets_off_at_full_speed_from_standing_still(clip, start_s, own_mps, library_clip):
     """Back in the clip they come to its speed gently: not, as it was, within two hundredths of a second."""
