@@ -3,11 +3,14 @@
 from __future__ import annotations
 
 import argparse
+from collections import Counter
 from typing import Any
 
 from demos.commands.arguments import seconds
 from demos.output import print_json
 from engine.core.errors import BadInput
+
+NAMED = 6  # of a list in a line for people
 
 
 def register(subparsers) -> None:
@@ -25,6 +28,7 @@ def register(subparsers) -> None:
     show = what.add_parser("show", help="what an import makes of a file", epilog="example: brace clips show 02_01.bvh")
     show.add_argument("file", metavar="FILE", help="a .bvh, .amc (its .asf beside it) or .npz file, or a clip's name")
     show.add_argument("--json", action="store_true", help="the report for programs, with all joints at --at")
+    show.add_argument("--as-captured", action="store_true", help="leave glitches of a frame or two in")
     show.add_argument("--at", type=seconds, default=0.0, metavar="S", help="the moment whose joints to give (0)")
     parser.set_defaults(run=run, json=False)
 
@@ -60,7 +64,7 @@ def _fetch(extra: bool) -> None:
 def _show(args: argparse.Namespace) -> None:
     from engine.clips.library import find_clip
 
-    clip = find_clip(args.file)
+    clip = find_clip(args.file, as_captured=args.as_captured)
     if not 0.0 <= args.at <= clip.duration_s:
         raise BadInput("usage", f"--at {args.at:g}: expected 0 to {clip.duration_s:g} s, which is how long it lasts")
     report = {**clip.report.as_dict(), "joints_m": _joints(clip, args.at)}
@@ -91,8 +95,27 @@ def _lines(report: dict[str, Any], at_s: float) -> list[str]:
     ]
     for side, stretches in r["planted"].items():
         lines.append(f"{side} foot stands in frames {', '.join(f'{a}-{b}' for a, b in stretches) or 'none'}")
+    if r["glitches"]:
+        lines.append(_of_glitches(r["glitches"]))
     if r["missing_joints"]:
         lines.append(f"nothing in the file moves {', '.join(r['missing_joints'])}")
     lines += [f"note: {note}" for note in r["notes"]]
     lines.append(f"joints at {at_s:g} s")
     return lines + [f"  {name:<15} {x:8.3f} {y:8.3f} {z:8.3f} m" for name, (x, y, z) in r["joints_m"].items()]
+
+
+def _of_glitches(glitches: list[dict[str, Any]]) -> str:
+    """How many frames were bridged, the first few, and the joints that most of them are of."""
+    frames = sum(glitch["last"] - glitch["first"] + 1 for glitch in glitches)
+    counted_frames = f"{frames} frame{'s' * (frames > 1)}"
+    places = [f"{g['first']}-{g['last']}" if g["last"] > g["first"] else f"{g['first']}" for g in glitches]
+    counted = Counter(joint for glitch in glitches for joint in glitch["joints"])
+    joints = [f"{joint} {count}" for joint, count in counted.most_common()]
+    return (
+        f"{counted_frames} bridged, in which joints were astray and straight back: {_first_of(places)} "
+        f"({_first_of(joints)}); --as-captured leaves them"
+    )
+
+
+def _first_of(words: list[str]) -> str:
+    return ", ".join(words[:NAMED]) + (f" and {len(words) - NAMED} more" if len(words) > NAMED else "")

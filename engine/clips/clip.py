@@ -44,6 +44,8 @@ class ImportReport:
     floor_slope: float  # rise of the file's floor per metre, taken out
     facing_deg: float  # the file's own heading in the first kept frame
     rest_frames_dropped: int
+    # bridged: "first" and "last" kept frame of each glitch, and the "joints" that were astray in them
+    glitches: list[dict[str, Any]]
     planted: dict[str, list[list[int]]]  # "left", "right": first and last kept frame of every stretch
     missing_joints: list[str]  # canonical joints that nothing in the file moves
     # how far from its Y axis a well-bent elbow or knee bent before it was put right, 95th percentile

@@ -18,6 +18,7 @@ from engine.clips.contacts import runs
 from engine.clips.deepmimic import read_deepmimic
 from engine.clips.feet import level_feet, stand_on
 from engine.clips.floor import Floor, fit_floor, level_from_floor
+from engine.clips.glitches import mend_glitches
 from engine.clips.looping import find_loop
 from engine.clips.making import Wanted, content_key, sources_of
 from engine.clips.mapping import Mapped, map_tracks
@@ -36,14 +37,17 @@ def import_clip(
     body_mass_kg: float | None = None,
     name: str | None = None,
     frames: tuple[int, int] | None = None,
+    as_captured: bool = False,
 ) -> Clip:
     """The clip in a .bvh, .amc (its .asf beside it), .npz or .json (DeepMimic) file. BadInput says what is wrong
     with the file, and where.
 
-    frames: first and last frame of the file to keep, 0-based; all of them if absent.
+    frames: first and last frame of the file to keep, 0-based; all of them if absent. as_captured: glitches of a frame
+    or two (`engine.clips.glitches`) are left as they are.
     """
     path = Path(path)
-    wanted = Wanted(sex, body_mass_kg, *(frames or (0, None)))
+    first, last = frames or (0, None)
+    wanted = Wanted(sex, body_mass_kg, first, last, as_captured)
     return build_clip(read_tracks(path), path, wanted, name or path.stem, content_key(path, wanted))
 
 
@@ -73,7 +77,9 @@ def build_clip(tracks: Tracks, where: Path, wanted: Wanted, name: str, key: str)
     axes = find_axes(tracks, rig)
     mapped = map_tracks(tracks, rig, axes)
     dropped = _dropped(mapped, _body(mapped, mapped.offset_m, wanted, where), tracks)
-    standing = _stand(_kept(mapped.pose, dropped, wanted, where), mapped, wanted, where, tracks)
+    kept = _kept(mapped.pose, dropped, wanted, where)
+    whole, glitches = mend_glitches(kept, tracks.fps) if tracks.captured and not wanted.as_captured else (kept, [])
+    standing = _stand(whole, mapped, wanted, where, tracks)
     pose, facing = _facing_ahead(standing.pose, standing.floor_m)
     loop = find_loop(pose, standing.body, standing.planted, tracks.fps)
     report = ImportReport(
@@ -91,6 +97,7 @@ def build_clip(tracks: Tracks, where: Path, wanted: Wanted, name: str, key: str)
         floor_slope=standing.slope,
         facing_deg=float(np.degrees(facing)),
         rest_frames_dropped=dropped,
+        glitches=[{**glitch._asdict(), "joints": list(glitch.joints)} for glitch in glitches],
         planted={side: [list(run) for run in runs(standing.planted[:, s])] for s, side in enumerate(("left", "right"))},
         missing_joints=list(mapped.missing),
         hinge_residual_deg=mapped.hinge_residual_deg,

@@ -69,15 +69,17 @@ def find_clip(
     *,
     sex: str = "male",
     body_mass_kg: float | None = None,
+    as_captured: bool = False,
 ) -> Clip:
     """The clip of that library name or in that file; a relative path counts from the folder `relative_to`, else from
     here.
 
-    BadInput for a name or file that is not there; EnvironmentTrouble for a library clip that has not been fetched.
+    as_captured: glitches of a frame or two are left in. BadInput for a name or file that is not there;
+    EnvironmentTrouble for a library clip that has not been fetched.
     """
     named = next((listed for listed in LIBRARY if listed.name == str(name_or_path)), None)
     if named is None:
-        return load_clip(_file(str(name_or_path), relative_to), Wanted(sex, body_mass_kg))
+        return load_clip(_file(str(name_or_path), relative_to), Wanted(sex, body_mass_kg, as_captured=as_captured))
     if named.path is None:
         from engine.clips.synthetic import sway
 
@@ -86,7 +88,8 @@ def find_clip(
         how = "brace clips fetch --extra" if named.extra else "brace clips fetch"
         message = f"clip {named.name!r} is not here yet; `{how}` brings it, `sway` needs no fetching"
         raise EnvironmentTrouble("clip-not-fetched", message)
-    return load_clip(named.path, Wanted(sex, body_mass_kg, *(named.frames or (0, None))), named.name)
+    first, last = named.frames or (0, None)
+    return load_clip(named.path, Wanted(sex, body_mass_kg, first, last, as_captured), named.name)
 
 
 def load_clip(path: Path, wanted: Wanted, name: str | None = None) -> Clip:

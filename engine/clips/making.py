@@ -21,6 +21,7 @@ class Wanted:
     body_mass_kg: float | None = None
     first_frame: int = 0  # of the file
     last_frame: int | None = None
+    as_captured: bool = False  # glitches of a frame or two are left in
 
 
 def sources_of(path: Path) -> list[Path]:

@@ -7,7 +7,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from engine.body.skeleton import MIRRORED, Body, Pose
+from engine.body.skeleton import JOINTS, MIRRORED, Body, Pose
 from engine.clips.clip import Clip
 
 # a mirror at Y = 0 turns points' Y over, and of a rotation's axis what is not Y
@@ -46,6 +46,9 @@ def mirror_clip(clip: Clip) -> Clip:
     """The mirrored clip: body, motion, contacts and the path of its loop."""
     pose = mirror_pose(clip.pose)
     planted = {"left": clip.report.planted["right"], "right": clip.report.planted["left"]}
+    glitches = [
+        {**glitch, "joints": [_other_side(name) for name in glitch["joints"]]} for glitch in clip.report.glitches
+    ]
     return replace(
         clip,
         name=f"{clip.name} mirrored",
@@ -53,6 +56,16 @@ def mirror_clip(clip: Clip) -> Clip:
         body=mirror_body(clip.body),
         planted=np.ascontiguousarray(clip.planted[:, SIDES_SWAPPED]),
         loop=clip.loop._replace(y_m=-clip.loop.y_m, yaw_rad=-clip.loop.yaw_rad),
-        report=replace(clip.report, name=f"{clip.name} mirrored", planted=planted, facing_deg=-clip.report.facing_deg),
+        report=replace(
+            clip.report,
+            name=f"{clip.name} mirrored",
+            planted=planted,
+            glitches=glitches,
+            facing_deg=-clip.report.facing_deg,
+        ),
         key=hashlib.sha256(f"mirrored {clip.key}".encode()).hexdigest(),
     )
+
+
+def _other_side(joint: str) -> str:
+    return JOINTS[MIRRORED[JOINTS.index(joint)]] if joint in JOINTS else joint

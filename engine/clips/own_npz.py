@@ -117,7 +117,8 @@ def read_own_npz(path: Path) -> Tracks:
     off = np.abs(np.linalg.norm(turns, axis=-1) - 1.0).max()
     if off > 0.01:
         raise _bad(path, f"quaternions whose length is off by {off:.3g}", "unit quaternions w x y z")
-    return Tracks("npz", JOINTS, PARENT.copy(), offsets, root, rotations.normalise(turns), fps, tips, scale_to_m=1.0)
+    turns, scale = rotations.normalise(turns), 1.0
+    return Tracks("npz", JOINTS, PARENT.copy(), offsets, root, turns, fps, tips, scale, captured=False)
 
 
 def _tips(archive, path: Path) -> dict[int, np.ndarray]:

@@ -133,6 +133,7 @@ def _report(body: Body, frames: int) -> ImportReport:
         floor_slope=0.0,
         facing_deg=0.0,
         rest_frames_dropped=0,
+        glitches=[],
         planted={side: [[0, frames - 1]] for side in ("left", "right")},
         missing_joints=[],
         hinge_residual_deg=0.0,

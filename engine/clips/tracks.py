@@ -30,6 +30,7 @@ class Tracks:
     # joint row -> (3,) where its last bone ends, in its frame
     tips: dict[int, np.ndarray] = field(default_factory=dict)
     scale_to_m: float | None = None  # metres for one file unit, where the format says so
+    captured: bool = True  # a motion of ours is not: it has no glitches to mend
     level: bool = False  # the format promises a level floor, and that motion and rest pose share their up axis
     notes: tuple[str, ...] = ()  # what the reader had to decide, in plain words
 

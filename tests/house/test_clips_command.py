@@ -6,6 +6,7 @@ import pytest
 
 from demos.cli import main
 from engine.body.skeleton import JOINTS
+from tests.clips.people import swing_arms, write_person
 
 REPORTED = {
     "name", "format", "frames", "fps", "duration_s", "source_joints", "scale_to_m", "up_axis", "leg_length_m",
@@ -72,6 +73,20 @@ def test_words_for_people(empty_cache, capsys):
     out = capsys.readouterr().out
     assert "left foot stands in frames" in out
     assert out.count(" m\n") >= len(JOINTS)
+
+
+def test_one_line_says_which_frames_were_bridged_and_of_what(empty_cache, capsys, tmp_path):
+    poses = swing_arms(40)
+    plain, glitched = tmp_path / "plain.bvh", tmp_path / "glitched.bvh"
+    write_person(plain, poses, fps=120)
+    poses[20] = {**poses[20], "Head": (0.0, 25.0, 0.0)}
+    write_person(glitched, poses, fps=120)
+    said = {}
+    for words in ([str(plain)], [str(glitched)], [str(glitched), "--as-captured"]):
+        assert main(["clips", "show", *words]) == 0
+        said[" ".join(words)] = [line for line in capsys.readouterr().out.splitlines() if "bridged" in line]
+    line = "1 frame bridged, in which joints were astray and straight back: 20 (head 1); --as-captured leaves them"
+    assert list(said.values()) == [[], [line], []]
 
 
 def test_a_moment_outside_the_clip_is_refused(empty_cache, capsys):
