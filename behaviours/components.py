@@ -194,7 +194,7 @@ class Residual(Component):
     since = column(dtype=np.int64)
     root = column(2, 3)  # offset, velocity
     joints = column(2, JOINT_COUNT, 3)
-    beyond = column(JOINT_COUNT, 3)  # how far the old pose was beyond its joints' limits drawn in, radians
+    beyond = column(2, JOINT_COUNT, 3)  # how far the old pose was beyond its limits drawn in, radians; how fast it went
     ankles = column(2, 2, 3)
     ankle_turns = column(2, 2, 3)
     stretch = column(2, 2)  # how much longer either leg was than the source's,

@@ -62,7 +62,8 @@ def begin_seam(world, row: int, tick: int, body: Body, shown_before: Pose, sourc
     inertialise.measure_seam(*source.pose, *source.later, *now, *ahead, moment_s, r.root[row], r.joints[row])
     deeper_into(body, capsules_of(world, row), source.pose.rotations, now.rotations, r.deeper_m[row])
     low, high = body.limit_low_rad + EARLY_RAD, body.limit_high_rad - EARLY_RAD
-    r.beyond[row] = beyond_limits(low, high, now.rotations)
+    r.beyond[row, 0] = beyond_limits(low, high, now.rotations)
+    r.beyond[row, 1] = (beyond_limits(low, high, ahead.rotations) - r.beyond[row, 0]) / moment_s
     _keep_ankles(r, row, body, now, ahead, source, moment_s)
 
 

@@ -4,6 +4,8 @@ be.
 
 from __future__ import annotations
 
+import math
+
 import numpy as np
 
 from behaviours.blends.arm_ways import yielding
@@ -40,6 +42,7 @@ from engine.maths.kernel import njit
 BELONGINGS = (Ragdoll, Blow, Residual, Blend, Feet, Sustained, Playback)  # what a pose is made from
 # of the residual's half-life: how long what the old motion had beyond a limit, or inside the body, is let be
 OLD_SHARE = 0.5
+PASSES_RAD = math.radians(0.15)
 
 
 @njit(cache=True)
@@ -52,6 +55,22 @@ def goals_with_residual(ankle_m, turned, ankles, ankle_turns, elapsed_s, half_li
             ankle_m[side, k] += r[k]
         for k in range(4):
             turned[side, k] = q[k]
+
+
+@njit(cache=True)
+def beyond_left(beyond, elapsed_s, half_life_s):
+    """What is left of how far the old motion was beyond its limits, (J, 3), of that and its velocity, (2, J, 3).
+
+    It dies away; but where the old motion is on its way out, it goes on at its speed for a hair, PASSES_RAD at most:
+    else what keeps it within the limit would move at once, as fast as it.
+    """
+    left = springs.decaying(1.0, 0.0, half_life_s, elapsed_s)[0] * beyond[0]
+    for j in range(JOINT_COUNT):
+        for k in range(3):
+            if beyond[0, j, k] * beyond[1, j, k] > 0.0:
+                x = abs(beyond[1, j, k]) * max(elapsed_s, 0.0) / (math.e * PASSES_RAD)
+                left[j, k] += math.copysign(PASSES_RAD * x * math.exp(1.0 - x), beyond[0, j, k])
+    return left
 
 
 @njit(cache=True)
@@ -154,7 +173,7 @@ def settled_pose(world, row: int, tick: float) -> tuple[np.ndarray, np.ndarray]:
     unaltered, unaltered_m = source.rotations.copy(), source.root_m.copy()
     add_remaining(source.root_m, source.rotations, r.root[row], r.joints[row], elapsed_s, half_life_s)
     old_s = OLD_SHARE * half_life_s
-    beyond = r.beyond[row] * springs.decaying(1.0, 0.0, old_s, elapsed_s)[0]
+    beyond = beyond_left(r.beyond[row], elapsed_s, old_s)
     keep_joints(body, unaltered, beyond, source.rotations)
     keep_arms_out(
         body, capsules_of(world, row), unaltered, r.deeper_m[row], elapsed_s, old_s, source.root_m, source.rotations

@@ -16,14 +16,17 @@ from behaviours.blends.leg_limits import (
     pushed,
     raise_heel,
 )
+from behaviours.settle.seams import MOMENT
 from behaviours.settle.settled_legs import Footing, stand
+from behaviours.settle.settling import PASSES_RAD, beyond_left
+from behaviours.timing import TICK_S
 from engine.body import support
 from engine.body.kinematics import joints_of
 from engine.body.limb_ik import apply_leg
-from engine.body.limits import excess_rad
+from engine.body.limits import beyond_limits, excess_rad
 from engine.body.skeleton import ANKLES, HIPS, JOINT_COUNT, KNEES, MIRRORED, TOES, Pose
 from engine.clips.mirror import mirror_pose
-from engine.maths import quaternion
+from engine.maths import quaternion, springs
 from tests.behaviours.people import BODY, standing
 from tests.behaviours.two_poses import held
 
@@ -169,3 +172,53 @@ def test_what_the_old_motion_had_beyond_its_limits_is_let_be():
     keep_leg(BODY, half, 1.0, 0, rotations, positions, orientations)
     allowed_deg = 0.5 * excess_deg(deep.rotations, ANKLES[0])
     assert excess_deg(rotations, ANKLES[0]) == pytest.approx(allowed_deg, abs=0.35)
+
+
+def beyond_early(rotations):
+    return beyond_limits(BODY.limit_low_rad + EARLY_RAD, BODY.limit_high_rad - EARLY_RAD, rotations)
+
+
+def test_a_foot_that_leaves_its_limits_at_speed_goes_on_for_a_hair():
+    """The knee that swings aside for it does not leave at once as fast as it: no seam jumps by that (0.05 m/s)."""
+    deep, at = squatting(0.30, 0.03, turned_deg=10.0, swivel_deg=15.0)[:2]
+    ankles, radps, moment_s = list(ANKLES), 6.0, MOMENT * TICK_S
+    assert (beyond_early(deep.rotations)[ankles, 1] < -EARLY_RAD).all()
+
+    def old(elapsed_s: float) -> np.ndarray:
+        """Both feet turn farther up, out of their limits."""
+        rotations, up = deep.rotations.copy(), quaternion.about_y(-radps * elapsed_s)
+        for ankle in ankles:
+            rotations[ankle] = quaternion.multiply(rotations[ankle], up)
+        return rotations
+
+    def knees_m(elapsed_s: float, beyond) -> np.ndarray:
+        pose = Pose(deep.root_m.copy(), old(elapsed_s))
+        feet, left = joints_of(BODY, pose)[1][ankles], beyond_left(beyond, elapsed_s, 0.05)
+        stand(BODY, Footing(deep.root_m, REST, left, at[ankles], feet, np.ones(2), (2.0, 2.0)), *pose)
+        return joints_of(BODY, pose)[0][list(KNEES)]
+
+    beyond = np.array([beyond_early(deep.rotations), np.zeros((JOINT_COUNT, 3))])
+    still_m = knees_m(0.0, beyond)
+    without_mps = np.linalg.norm(knees_m(moment_s, beyond) - still_m, axis=1).max() / moment_s
+    beyond[1] = (beyond_early(old(moment_s)) - beyond[0]) / moment_s
+    jump_mps = np.linalg.norm(knees_m(moment_s, beyond) - still_m, axis=1).max() / moment_s
+    assert jump_mps < 0.01
+    assert without_mps > 4.0 * jump_mps
+
+
+@pytest.mark.parametrize("radps", [0.0, 0.3, -0.3, 6.0, -6.0, 100.0])
+def test_what_is_left_beyond_limits_goes_on_outwards_by_no_more_than_a_hair(radps):
+    beyond = np.zeros((2, JOINT_COUNT, 3))
+    beyond[0, ANKLES[0], 1], beyond[1, ANKLES[0], 1], beyond[1, KNEES[0], 1] = 0.2, radps, radps
+    times_s = np.linspace(0.0, 0.3, 4001)
+    left = np.array([beyond_left(beyond, t, 0.05) for t in times_s])
+    dying = 0.2 * np.array([springs.decaying(1.0, 0.0, 0.05, t)[0] for t in times_s])
+    more = left[:, ANKLES[0], 1] - dying
+    assert left[0, ANKLES[0], 1] == 0.2
+    assert more.min() > -1e-12
+    assert more.max() == pytest.approx(PASSES_RAD if radps > 1.0 else more.max(), rel=0.01)
+    assert more.max() <= PASSES_RAD * 1.000001 if radps > 0.0 else more.max() == 0.0
+    first_s = 1e-7
+    rate = (beyond_left(beyond, first_s, 0.05)[ANKLES[0], 1] - 0.2) / first_s
+    assert rate == pytest.approx(max(radps, 0.0), abs=1e-3, rel=0.02)
+    assert np.abs(left[:, KNEES[0]]).max() == 0.0  # a joint within its limits drawn in leaves nothing
