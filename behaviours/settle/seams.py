@@ -60,6 +60,7 @@ def begin_seam(world, row: int, tick: int, body: Body, shown_before: Pose, sourc
     r, moment_s = world[Residual], MOMENT * TICK_S
     r.since[row] = tick - 1
     inertialise.measure_seam(*source.pose, *source.later, *now, *ahead, moment_s, r.root[row], r.joints[row])
+    inertialise.calm_legs(r.joints[row])
     deeper_into(body, capsules_of(world, row), source.pose.rotations, now.rotations, r.deeper_m[row])
     low, high = body.limit_low_rad + EARLY_RAD, body.limit_high_rad - EARLY_RAD
     r.beyond[row, 0] = beyond_limits(low, high, now.rotations)

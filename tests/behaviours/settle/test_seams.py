@@ -11,11 +11,14 @@ from behaviours.blends.arm_ways import BEYOND_RAD
 from behaviours.blends.leg_limits import EARLY_RAD
 from behaviours.components import Phase
 from behaviours.measure.measures import foot_slide_max_m, seam_jumps
-from behaviours.settle.inertialise import add_remaining, carry_on, measure_seam
+from behaviours.settle.inertialise import SNATCHED_RADPS, add_remaining, calm_legs, carry_on, measure_seam
+from behaviours.settle.seams import MOMENT
 from behaviours.settle.settling import keep_joints, keep_swinging_legs
+from behaviours.timing import TICK_S
 from engine.body.kinematics import joints_of
+from engine.body.limb_ik import apply_leg
 from engine.body.limits import beyond_limits, excess_rad
-from engine.body.skeleton import ANKLES, HIPS, JOINT_COUNT, KNEES
+from engine.body.skeleton import ANKLES, HIPS, JOINT_COUNT, KNEES, Pose
 from engine.maths import quaternion
 from tests.behaviours.people import BODY, standing
 from tests.behaviours.runs import AHEAD, run, track_of
@@ -136,3 +139,44 @@ def test_knees_that_move_the_least_make_a_whole_run_without_a_jump():
     assert jump_m < 0.0005
     assert jump_mps < 0.05
     assert foot_slide_max_m(track) < 0.002
+
+
+def sunk(down_m: float) -> tuple[np.ndarray, np.ndarray]:
+    """Standing on dead straight legs, the pelvis so much lower, the ankles where they were."""
+    root_m, rotations = standing().root_m - [0.0, 0.0, down_m], standing().rotations.copy()
+    rotations[[*HIPS, *KNEES]] = quaternion.IDENTITY
+    ankles_m = joints_of(BODY, Pose(standing().root_m, rotations))[0][list(ANKLES)]
+    positions, orientations = joints_of(BODY, Pose(root_m, rotations))
+    for side in range(2):
+        apply_leg(
+            BODY, rotations, positions, orientations, side, ankles_m[side], np.array(quaternion.IDENTITY), 0.0, 0.0
+        )
+    return root_m, rotations
+
+
+def test_a_leg_that_is_dead_straight_is_not_turned_over_by_a_seam():
+    """Its knee leaves at a speed without bounds; a tick later the pose is still near the source's."""
+    source, later = sunk(1e-7), sunk(4e-6)
+    offsets, joints = np.empty((2, 3)), np.empty((2, JOINT_COUNT, 3))
+    measure_seam(*source, *later, *source, *source, MOMENT * TICK_S, offsets, joints)
+    speeds = np.linalg.norm(joints[1, [*HIPS, *KNEES]], axis=1)
+    assert speeds.min() > 2.0 * SNATCHED_RADPS
+    calm_legs(joints)
+    calmed = np.linalg.norm(joints[1, [*HIPS, *KNEES]], axis=1)
+    assert calmed.max() < 0.5 * SNATCHED_RADPS
+    np.testing.assert_allclose(calmed / calmed[0], speeds / speeds[0], rtol=1e-9)
+    root_m, rotations = source[0].copy(), source[1].copy()
+    add_remaining(root_m, rotations, offsets, joints, TICK_S, HALF_LIFE_S)
+    turned = [quaternion.angle_between(rotations[j], source[1][j]) for j in (*HIPS, *KNEES)]
+    assert max(turned) < np.radians(10.0)
+
+
+@given(st.integers(0, 10_000))
+def test_what_legs_can_do_is_kept_to_the_last_bit(seed):
+    chance = np.random.default_rng(seed)
+    joints = chance.normal(size=(2, JOINT_COUNT, 3))
+    joints[1] *= chance.uniform(0.0, SNATCHED_RADPS, (JOINT_COUNT, 1)) / np.linalg.norm(joints[1], axis=1)[:, None]
+    joints[1, : HIPS[0]] *= 10.0  # arms may be faster
+    before = joints.copy()
+    calm_legs(joints)
+    np.testing.assert_array_equal(joints, before)
