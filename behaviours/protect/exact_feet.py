@@ -6,6 +6,7 @@ import numpy as np
 
 from behaviours.protect.apply_rules import apply_rules
 from behaviours.protect.fit_arms import fit_arms
+from behaviours.protect.task import Posed, Task
 from engine.body.skeleton import HIPS
 from engine.maths import vector
 from engine.maths.inner_kernel import inner_kernel
@@ -15,10 +16,11 @@ EXACT = 0.0  # leg reach without the soft end: for poses that are shown
 LOWERINGS = 20  # each closes what is missing but for the leg's slant
 
 
-@njit(cache=True)
-def pose_exactly(task, shift, controls, posed, tolerance_m):
+def pose_exactly(task: Task, shift: np.ndarray, controls: np.ndarray, posed: Posed, tolerance_m: float) -> np.ndarray:
     """Writes the pose with planted feet where they are planted and both arms as they are shown; returns how far the
     pelvis had to give (3,), metres.
+
+    No kernel itself: Python needs both halves for themselves too, and would wait seconds for the code of all three.
     """
     given = stand_exactly(task, shift, controls, posed, tolerance_m)
     fit_arms(task, controls, posed)
