@@ -131,7 +131,7 @@ def choose(seen: Sequence[Moment], count: int, from_s: float | None, to_s: float
         raise BadInput("usage", f"nothing lies from {first:g} to {last:g} s; the scenario lasts {seen[-1].time_s:g} s")
     picks = [round(float(pick)) for pick in np.linspace(0, len(inside) - 1, min(count, len(inside)))]
     contact = next((i for i, now in enumerate(inside) if now.phase == "respond"), None)
-    if contact is not None and len(picks) > 2:  # the blow itself is what one looks for
+    if contact is not None and contact not in picks and len(picks) > 2:  # the blow itself is what one looks for
         nearest = min(range(1, len(picks) - 1), key=lambda k: abs(picks[k] - contact))
         picks[nearest] = contact
     return [inside[pick] for pick in picks]

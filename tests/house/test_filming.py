@@ -135,6 +135,10 @@ def test_the_moments_of_a_strip():
     assert 30 / 16 in times  # the first moment of the blow
     assert [now.time_s for now in choose(seen, 3, 0.0, 0.25)] == [0.0, 0.125, 0.25]
     assert len(choose(seen, 500, None, None)) == 45
+    blow_s = next(now.time_s for now in seen if now.phase == "respond")
+    times = [now.time_s for now in choose(seen, 5, blow_s, None)]
+    assert times[0] == blow_s
+    assert times == sorted(set(times))  # the blow is among them once
 
 
 @pytest.mark.parametrize(("frames", "columns"), [(1, 1), (8, 8), (9, 5), (16, 8), (17, 6)])
