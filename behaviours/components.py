@@ -55,7 +55,7 @@ class Character(Component):
 
     body = column(dtype=np.int64)  # row of world.assets.bodies
     startle = column(dtype=bool)
-    protects = column(dtype=bool)  # without it nothing is noticed: the same blow, unprepared
+    protects = column(dtype=bool)  # without it nothing is noticed, and balls are aimed at who goes on
     response_s = column()
     boldness = column()  # -1 timid ... +1 bold
     turn_side = column(dtype=np.int64)  # the side last turned to: kept when a threat comes from dead ahead

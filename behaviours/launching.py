@@ -3,19 +3,21 @@
 from __future__ import annotations
 
 import math
+from functools import partial
 
-from behaviours.components import Character, Feet, Flight, Playback, Posture, Reaction, Script, Threat
+from behaviours.components import Character, Feet, Flight, Phase, Playback, Posture, Reaction, Script, Threat
 from behaviours.perceive.approach import Approach, coming_from
 from behaviours.perceive.perceived import aim_of, target_centre
 from behaviours.perceive.senses import face, facing_dot, first_due
 from behaviours.perceive.threats import KINDS, Make, make_threat
-from behaviours.playing import body_of, heading_of, perception_clip_s
-from behaviours.protect.aiming import Asked, aimed
+from behaviours.playing import body_of, clip_pose, clip_time_s, heading_of, perception_clip_s
+from behaviours.protect.aiming import Asked, aimed, aimed_unseen
 from behaviours.protect.protection import at_perception, felt
 from behaviours.scenario_spec import BallSpec, ThreatSpec
 from behaviours.settle.seams import shown
 from behaviours.timing import TICK_S, time_to_contact_s, whole_ticks
 from engine.body.kinematics import joints_of
+from engine.body.skeleton import Pose
 from engine.core.schedule import Stage, system
 from engine.maths import vector
 from engine.maths.ballistics import GRAVITY_MPS2, fly
@@ -114,14 +116,26 @@ def threaten(world, spec: ThreatSpec) -> None:
 
 
 def aimed_approach(world, spec: ThreatSpec, make: Make, row: int) -> Approach:
-    """The flight that meets the target's centre as it will be in the rules pose, before block (A1)."""
+    """The flight that meets the target's centre as it will be in the rules pose, before block (A1), or where it will be
+    anyway, of somebody who sees nothing coming.
+    """
+    body, settings = body_of(world, row), world.assets.settings
     ttc_s = whole_ticks(scripted_ttc_s(world, spec, row)) * TICK_S
-    at = at_perception(world, row, perception_clip_s(world, row, world.tick), ttc_s)
     asked = Asked(
         str(spec.target), math.radians(spec.azimuth_deg), math.radians(spec.elevation_deg), speed_of(spec), ttc_s,
         make, felt(world, row, make.speed_norm, make.size_norm),
     )  # fmt: skip
-    return aimed(body_of(world, row), at, asked, world.assets.settings)[0]
+    if not world[Character].protects[row]:
+        return aimed_unseen(body, shown(world, row)[0], partial(unaware_pose, world, row), asked, settings)[0]
+    at = at_perception(world, row, perception_clip_s(world, row, world.tick), ttc_s)
+    return aimed(body, at, asked, settings)[0]
+
+
+def unaware_pose(world, row: int, later_s: float) -> Pose:
+    """What somebody who goes on as they are will look like by then: the clip's pose; of one who was struck, as now."""
+    if world[Reaction].phase[row] != Phase.PLAY:
+        return shown(world, row)[0]
+    return clip_pose(world, row, clip_time_s(world, row, world.tick + later_s / TICK_S))
 
 
 def ball(kind: str, make: Make, position_m, velocity_mps, spin_radps=(0.0, 0.0, 0.0)) -> Flight:

@@ -65,7 +65,7 @@ class CharacterSpec(Section):
     stance: StanceSpec = StanceSpec()
     boldness: Annotated[float, Field(ge=-1, le=1)] = 0.0  # -1 timid ... +1 bold
     startle: bool = True
-    protects: bool = True  # false: sees nothing coming, for comparison
+    protects: bool = True  # false: sees nothing coming, goes on, and is hit unprepared
     recover: Recover = "same"
     response_s: Annotated[float, Field(gt=0, le=2)] = 0.08
     sex: Literal["male", "female"] = "male"

@@ -1,7 +1,10 @@
-"""How a scripted threat comes: so that it meets its target as that will be in the rules pose, before block (A1)."""
+"""How a scripted threat comes: so that it meets its target as that will be in the rules pose, before block (A1);
+or where the clip will have it, of somebody who sees nothing coming and goes on.
+"""
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import NamedTuple
 
 from behaviours.perceive.approach import Approach, plan_approach
@@ -33,14 +36,30 @@ def aimed(body: Body, at: AtPerception, asked: Asked, settings: Settings) -> tup
     """The flight that meets the target, and the threat that it is to the character. ValueError: an unknown target."""
     joint, offset = aim_of(body, asked.target)
     aim = target_centre(joint, offset, *joints_of(body, at.now))
-    way, threat = _coming_to(body, at.now, aim, asked, settings)
+    way, threat = coming_to(body, at.now, aim, asked, settings)
     for _ in range(AIM_PASSES):
         aim = aim_point(prepare(body, at, threat, settings))
-        way, threat = _coming_to(body, at.now, aim, asked, settings)
+        way, threat = coming_to(body, at.now, aim, asked, settings)
     return way, threat
 
 
-def _coming_to(body: Body, now: Pose, aim, asked: Asked, settings: Settings) -> tuple[Approach, PerceivedThreat]:
+def aimed_unseen(
+    body: Body, now: Pose, later: Callable[[float], Pose], asked: Asked, settings: Settings
+) -> tuple[Approach, PerceivedThreat]:
+    """The flight that meets the target of somebody who does not see it: `later` is told how many seconds it takes to
+    come, and answers which pose they have then.
+    """
+    joint, offset = aim_of(body, asked.target)
+    ttc_s = asked.ttc_s
+    for _ in range(AIM_PASSES):  # a low path may be shortened
+        way, threat = coming_to(
+            body, now, target_centre(joint, offset, *joints_of(body, later(ttc_s))), asked, settings
+        )
+        ttc_s = way.ttc_s
+    return way, threat
+
+
+def coming_to(body: Body, now: Pose, aim, asked: Asked, settings: Settings) -> tuple[Approach, PerceivedThreat]:
     """The flight to a place, and the threat that it is. World metres."""
     heading = float(quaternion.heading(now.rotations[PELVIS]))
     way = plan_approach(

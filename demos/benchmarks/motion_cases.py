@@ -7,7 +7,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from behaviours.scenario import check_scenario
+from behaviours.scenario import check_scenario, check_threat
 from behaviours.scenario_spec import Scenario
 from behaviours.timing import TICK_S
 from engine.clips.clip import Clip
@@ -33,6 +33,14 @@ AFTER_CONTACT_S = 1.1  # response and recovery, and a little of the clip again
 AFTER_FALL_S = 6.5  # to fall, to lie still, to get up and to stand
 NEW_ONE_IN = 4  # rounds of the clips in which a new motion is searched for
 AHEAD_DEG = 60.0
+
+
+class Release(NamedTuple):
+    """A ball as it comes into the world."""
+
+    tick: int
+    position_m: tuple[float, float, float]
+    velocity_mps: tuple[float, float, float]
 
 
 class Case(NamedTuple):
@@ -139,7 +147,7 @@ def make_knock_downs(clips: dict[str, Clip], count: int, seed: int = 1) -> list[
 
 
 def scenario_of(case: Case, *, mirrored: bool = False, protects: bool = True) -> Scenario:
-    """The case as a scenario; mirrored, or thrown at somebody who sees nothing coming."""
+    """The case as a scenario; mirrored, or with the threat to somebody who sees nothing coming, who is met as well."""
     threat: dict[str, Any] = {
         "target": case.target, "perceived_s": PERCEIVED_S,
         "azimuth_deg": -case.azimuth_deg if mirrored else case.azimuth_deg,
@@ -160,3 +168,14 @@ def scenario_of(case: Case, *, mirrored: bool = False, protects: bool = True) ->
         }],
         "threat": [threat],
     })  # fmt: skip
+
+
+def same_ball(case: Case, release: Release) -> Scenario:
+    """The very ball of a case, on the very path, past or into somebody who sees nothing coming."""
+    scenario = scenario_of(case, protects=False)
+    (threat,) = scenario.threat
+    thrown = {
+        "free": True, "target": threat.target, "size": threat.size, "released_s": release.tick * TICK_S,
+        "position_m": release.position_m, "velocity_mps": release.velocity_mps,
+    }  # fmt: skip
+    return scenario.model_copy(update={"threat": (check_threat(thrown),)})

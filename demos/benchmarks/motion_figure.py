@@ -57,14 +57,15 @@ def share(rows: list[Row], name: str, least: float | None, of: Of, counted: str)
     return Figure(name, percent, bar, met, len(kept), int((values == 0.0).sum()), worst, counted)
 
 
-def median(rows: list[Row], name: str, least: float, of: Of, counted: str) -> Figure:
-    """The middle of all cases; the lowest is the worst."""
+def median(rows: list[Row], name: str, least: float | None, of: Of, counted: str) -> Figure:
+    """The middle of all cases; the lowest is the worst. least None: no bar."""
     kept, values = _values(rows, of)
     middle = float(np.median(values)) if kept else float("nan")
     worst = kept[int(values.argmin())] if kept else None
-    return Figure(
-        name, middle, f">= {least:g}", middle >= least, len(kept), int((values < least).sum()), worst, counted
-    )
+    if least is None:
+        return Figure(name, middle, "-", True, len(kept), 0, worst, counted)
+    failing = int((values < least).sum())
+    return Figure(name, middle, f">= {least:g}", middle >= least, len(kept), failing, worst, counted)
 
 
 def _values(rows: list[Row], of: Of) -> tuple[list[Row], np.ndarray]:

@@ -14,7 +14,7 @@ from behaviours.measure.observing import HandWay, Observer, Track
 from behaviours.scenario_spec import CharacterSpec, Scenario
 from behaviours.simulation import Simulation
 from behaviours.timing import TICK_S
-from demos.benchmarks.motion_cases import Case, scenario_of
+from demos.benchmarks.motion_cases import Case, Release, same_ball, scenario_of
 from engine.body.kinematics import com_of, joints_of
 from engine.body.skeleton import MIRRORED, Pose
 from engine.clips.clip import Clip
@@ -25,7 +25,6 @@ from engine.physics import impact
 EVERY_MIRRORED = 4
 DEAD_AHEAD_DEG = 2.0  # left out of the comparison with the mirror image: there a side is chosen
 PROTECTING = (Phase.STARTLE, Phase.PROTECT)
-HEAD_PARTS = ("head", "neck")
 RECOVERING = (Phase.RECOVER_BLEND, Phase.RECOVER_RETURN)
 LONGEST_FLIGHT_TICKS = 240
 OFF_LINE = (HandWay.BOWED, HandWay.LED)
@@ -44,6 +43,7 @@ class Timed(Simulation):
         self.observer: Observer = Observer(self.world, self.world.assets.character_rows)
         self.tick_s: list[float] = []
         self.promised_s: float | None = None  # when the sustained pose, once it is known, is to be touched
+        self.release: Release | None = None  # of the first ball
 
     @property
     def track(self) -> Track:
@@ -54,6 +54,8 @@ class Timed(Simulation):
         self.schedule.tick(self.world)
         passed_s = time.thread_time() - begun
         self.observer.look(self.world)
+        if self.release is None:
+            self.release = released(self.world)
         if self.track.phase[-1] in PROTECTING:
             self.tick_s.append(passed_s)
             if self.promised_s is None:
@@ -63,6 +65,15 @@ class Timed(Simulation):
         return [
             {"tick": event.tick, "kind": event.kind, **event.data} for event in self.world.events if event.kind in kinds
         ]
+
+
+def released(world) -> Release | None:
+    """The first ball, in the tick that it comes in."""
+    f, balls = world[Flight], world.rows(Flight)
+    if len(balls) == 0:
+        return None
+    at, mps = f.position_m[balls[0]].tolist(), f.velocity_mps[balls[0]].tolist()
+    return Release(world.tick - 1, (at[0], at[1], at[2]), (mps[0], mps[1], mps[2]))
 
 
 def promised_contact_s(world) -> float | None:
@@ -101,8 +112,9 @@ def run_case(case: Case, clips: dict[str, Clip]) -> Row:
     row["contact_error_s"] = touched[0]["late_s"] if touched else None
     met = touched and simulation.promised_s is not None
     row["promise_error_s"] = touched[0]["at_s"] - simulation.promised_s if met else None
-    if case.target == "head":
-        row |= unprotected(case, clips)
+    if case.target == "head" and simulation.release:
+        row["bare_head_peak_g"] = head_peak_g(play(scenario_of(case, protects=False), clips))
+        row["passed_head_peak_g"] = head_peak_g(play(same_ball(case, simulation.release), clips))
     if case.number % EVERY_MIRRORED == 0 and abs(case.azimuth_deg) > DEAD_AHEAD_DEG:
         row["asymmetry_m"] = asymmetry_m(simulation.track, play(scenario_of(case, mirrored=True), clips).track)
     return row
@@ -168,16 +180,10 @@ def fall_of(simulation: Timed) -> Row:
     return row
 
 
-def unprotected(case: Case, clips: dict[str, Clip]) -> Row:
-    """What somebody who sees nothing coming has of the same threat: the head's peak, None where it touches nobody; and
-    whether it meets the head at all, being thrown at where a head that leans away is.
-    """
-    simulation = play(scenario_of(case, protects=False), clips)
+def head_peak_g(simulation: Timed) -> float | None:
+    """The head's greatest acceleration, g; None of somebody who was not struck."""
     head_g = head_acceleration_g(simulation.track)
-    return {
-        "bare_head_peak_g": float(head_g.max()) if len(head_g) else None,
-        "bare_head_met": any(event["part"] in HEAD_PARTS for event in simulation.events("contact", "touch")),
-    }
+    return float(head_g.max()) if len(head_g) else None
 
 
 def asymmetry_m(track: Track, mirrored: Track) -> float:

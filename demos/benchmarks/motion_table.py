@@ -125,22 +125,29 @@ def _of_blows(rows: list[Row]) -> list[Figure]:
     ahead = [row for row in rows if row["case"].frontal_head]
     unmet = sum(row["first_contact"] is None for row in ahead)
     heads = [row for row in rows if row["case"].target == "head"]
-    left_out = sum(_both(row) is None for row in heads)
+    left_out, missed = (sum(peaks(row) is None for row in heads) for peaks in (_peaks, _peaks_of_same_ball))
     return [
         share(
             rows, "head threats from ahead met by hand or forearm, %", 95.0, _met_by_arm,
             f"threats to the head within {AHEAD_DEG:g} degrees of ahead; {unmet} that touched nobody count as not met",
         ),
         share(
-            rows, "head is hit less hard than unprotected, %", 90.0, _spared,
-            f"threats to the head from anywhere; left out: {left_out} of {len(heads)}, nobody struck in one run",
+            rows, "head is hit less hard than unprotected, %", 90.0, lambda row: _spared(_peaks(row)),
+            "threats to the head from anywhere; of somebody who sees nothing coming it is aimed at where the clip will "
+            f"have it; left out: {left_out} of {len(heads)}, nobody struck in one run",
+        ),
+        median(
+            rows, "median cut of the head's peak acceleration, %", 40.0, lambda row: _cut(_peaks(row)),
+            "the same threats",
         ),
         share(
-            rows, "the same where the ball meets that bare head, %", None, _spared_where_met,
-            "of those threats the ones that meet the unprotected head or neck; the others, thrown at a head that leans "
-            "away, brush an arm or the trunk of one that does not",
+            rows, "hit less hard by the very same ball, %", None, lambda row: _spared(_peaks_of_same_ball(row)),
+            "that ball on that path: thrown at a head that leans away, it mostly passes the unprotected or brushes an "
+            f"arm or the trunk; left out: {missed} of {len(heads)}, nobody struck in one run",
         ),
-        median(rows, "median cut of the head's peak acceleration, %", 40.0, _cut, "the same threats"),
+        median(
+            rows, "median cut of the very same ball, %", None, lambda row: _cut(_peaks_of_same_ball(row)), "those balls"
+        ),
     ]  # fmt: skip
 
 
@@ -193,22 +200,24 @@ def _met_by_arm(row: Row) -> float | None:
     return float(row["first_contact"] is not None and row["first_contact"].endswith(("hand", "forearm")))
 
 
-def _both(row: Row) -> tuple[float, float] | None:
-    """Peaks with and without protection, where the ball meets the body in both runs."""
+def _peaks(row: Row) -> tuple[float, float] | None:
+    """The head's peaks with and without protection from the same threat, where both are struck."""
     own, bare = row.get("head_peak_g"), row.get("bare_head_peak_g")
     return None if own is None or bare is None else (own, bare)
 
 
-def _spared(row: Row) -> float | None:
-    return None if (pair := _both(row)) is None else float(pair[0] < pair[1])
+def _peaks_of_same_ball(row: Row) -> tuple[float, float] | None:
+    """Likewise from the same ball on the same path."""
+    own, bare = row.get("head_peak_g"), row.get("passed_head_peak_g")
+    return None if own is None or bare is None else (own, bare)
 
 
-def _spared_where_met(row: Row) -> float | None:
-    return _spared(row) if row.get("bare_head_met") else None
+def _spared(peaks: tuple[float, float] | None) -> float | None:
+    return None if peaks is None else float(peaks[0] < peaks[1])
 
 
-def _cut(row: Row) -> float | None:
-    return None if (pair := _both(row)) is None else 100.0 * (1.0 - pair[0] / max(pair[1], 1e-9))
+def _cut(peaks: tuple[float, float] | None) -> float | None:
+    return None if peaks is None else 100.0 * (1.0 - peaks[0] / max(peaks[1], 1e-9))
 
 
 def _tick(rows: list[Row]) -> Figure:

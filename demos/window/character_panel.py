@@ -41,7 +41,7 @@ class CharacterPanel:
         ))  # fmt: skip
         _note(changes, "startle", spec.startle, ui.toggle("Startles", spec.startle))
         _note(changes, "protects", spec.protects, ui.toggle(
-            "Sees threats coming", spec.protects, help="off: the same blow, unprepared"
+            "Sees threats coming", spec.protects, help="off: goes on, and is hit unprepared"
         ))  # fmt: skip
         ui.heading("After the blow")
         _note(changes, "response_s", spec.response_s, ui.slider(

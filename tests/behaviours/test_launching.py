@@ -10,9 +10,10 @@ import pytest
 from behaviours.components import Flight, Posture, Script, Threat
 from behaviours.launching import velocity_towards
 from behaviours.timing import TICK_S, time_to_contact_s
+from engine.body.kinematics import joints_of
 from engine.body.skeleton import HEAD, PELVIS
 from engine.maths.ballistics import GRAVITY_MPS2, fly
-from tests.behaviours.runs import AHEAD, events, simulation_of, track_of
+from tests.behaviours.runs import AHEAD, events, run, simulation_of, track_of
 
 
 def launched(threat, ticks=40, **more):
@@ -73,6 +74,29 @@ def test_it_aims_at_what_the_scenario_names(target, joint):
         assert 0.8 < height < 1.15
     else:
         assert 0.6 < height < 1.3
+
+
+@pytest.mark.parametrize("clip", ["walk", "run"])
+@pytest.mark.parametrize("azimuth_deg", [30.0, -100.0, 180.0])
+def test_who_sees_nothing_coming_walks_into_it(clip, azimuth_deg, library_clip):
+    """It is aimed at where the head will be, not at where it is, nor at where a head that leans away would be."""
+    threat = AHEAD | {"azimuth_deg": azimuth_deg, "speed_mps": 23.0}
+    simulation = run([threat], clip=library_clip(clip), protects=False, duration_s=2.0)
+    (launched_at,) = events(simulation, "launched")
+    touched = events(simulation, "contact")[0]
+    assert touched["part"] in ("head", "neck")
+    assert abs(touched["late_s"]) < TICK_S
+    heads_m = joints_of(track_of(simulation).body, track_of(simulation).pose)[0][:, HEAD]
+    assert np.linalg.norm(heads_m[touched["tick"]] - heads_m[launched_at["tick"]]) > 0.5  # walked on meanwhile
+
+
+def test_nor_does_a_path_that_is_shortened_miss_them(library_clip):
+    """A level ball that would lead under ground is perceived later instead: the head is elsewhere by then."""
+    low = AHEAD | {"elevation_deg": -3.0, "speed_mps": 22.8}
+    settings = {"threats": {"low_path": "shorten"}}
+    simulation = run([low], clip=library_clip("walk"), protects=False, duration_s=2.0, settings=settings)
+    assert events(simulation, "launched")[0]["ttc_shortened_s"] > 0.1
+    assert events(simulation, "contact")[0]["part"] in ("head", "neck")
 
 
 def test_a_point_is_thrown_at_as_it_is():

@@ -36,7 +36,7 @@ def row(number: int = 0, **changed):
     """A case in which everything was well."""
     return {
         "case": CASE._replace(number=number), "contact_error_s": 0.0, "first_contact": "left_hand", "head_peak_g": 5.0,
-        "bare_head_peak_g": 50.0, "bare_head_met": True, "foot_slide_max_m": 0.0, "hand_line_deviation_max_m": 0.0,
+        "bare_head_peak_g": 50.0, "passed_head_peak_g": 4.0, "foot_slide_max_m": 0.0, "hand_line_deviation_max_m": 0.0,
         "com_line_deviation_max_m": 0.0, "seam_position_jump_max_m": 0.0, "seam_velocity_jump_max_mps": 0.0,
         "joint_limit_excess_max_rad": 0.0, "overlap_max_m": 0.0, "protect_ms": [0.2, 0.3], "snap": NOTHING,
         "fastest": NOTHING, "snap_phase": "protect", "foot_ticks": 100, "settling_foot_ticks": 10,
@@ -115,11 +115,12 @@ def test_shares_and_medians():
     assert spared.value == pytest.approx(90.0)
     assert spared.met
     assert spared.worst["case"].number == 0
-    assert figure(rows, "median cut").value == pytest.approx(90.0)
-    rows[0]["bare_head_met"] = rows[1]["bare_head_met"] = False
-    assert figure(rows, "the same where").value == pytest.approx(100.0)
-    assert (figure(rows, "the same where").cases, figure(rows, "the same where").bar) == (8, "-")
-    assert figure(rows, "head is hit less hard").value == pytest.approx(90.0)
+    assert figure(rows, "median cut of the head").value == pytest.approx(90.0)
+    rows[1]["passed_head_peak_g"], rows[2]["passed_head_peak_g"] = 6.0, None
+    same_ball = figure(rows, "hit less hard by the very same ball")
+    assert same_ball.value == pytest.approx(100.0 / 9.0)
+    assert (same_ball.cases, same_ball.bar) == (9, "-")
+    assert figure(rows, "median cut of the very same ball").value == pytest.approx(-25.0)
     met_by_head = [row(k, first_contact="head" if k < 2 else "right_forearm") for k in range(10)]
     arms = figure(met_by_head, "head threats from ahead")
     assert arms.value == pytest.approx(80.0)
