@@ -14,6 +14,7 @@ from behaviours.blends.arm_ways import BEYOND_RAD, follow_way, within_limits
 from behaviours.blends.held_feet import hold_feet, leg_lengths
 from behaviours.blends.leg_limits import bounds_between, keep_leg
 from behaviours.blends.neck_line import hold_neck
+from behaviours.timing import ease
 from engine.body.kinematics import centre_of_mass, joints_into
 from engine.body.limb_ik import place_children, turn_end_to
 from engine.body.skeleton import ANKLES, BACK, HEAD, HIPS, KNEES, NECK, PELVIS, TOES, WAIST
@@ -25,6 +26,8 @@ TRIES, LAST_TRIES = 5, 2
 # from two fifths of that to nearly all of it; of either, each try leaves less than a half
 GAIN = 1.5
 LAST_GAIN = 0.7
+# and a few more where it is still off by more than this, whole ones from twice that: nothing sets in all at once
+MORE_TRIES, NEAR_M = 4, 0.002
 # how far the COM is moved along its line for a leg that is too short by one, and how steep a leg counts as plumb
 ALONG_GAIN, PLUMB = 0.4, 0.3
 # how far above its line the COM may go for an ankle that a low pelvis bends up too far, and by how much for a radian
@@ -57,7 +60,7 @@ def balance(body, start, end, weight, goals, ways, knees, root_m, rotations, pos
     inside = 1.0 - (1.0 - min(max(4.0 * weight * (1.0 - weight), 0.0), 1.0)) ** 4
     legs = vector.mix(vector.mix(first, last, weight), legs, inside)
     first_m = (root_m[0], root_m[1], root_m[2])
-    for n in range(TRIES + LAST_TRIES):
+    for n in range(TRIES + LAST_TRIES + MORE_TRIES):
         com_m = centre_of_mass(body, positions, orientations)
         for side in range(2):
             ahead_m += ALONG_GAIN * sunk_m[side] * towards_foot(line, goals, side, positions)
@@ -72,8 +75,13 @@ def balance(body, start, end, weight, goals, ways, knees, root_m, rotations, pos
                 modelled = legs[k] + share * (root_m[k] - first_m[k])
                 root_m[k] += GAIN * (off_m[k] - (modelled - now[k]) / mass)
         else:
+            gain = LAST_GAIN * inside
+            if n >= TRIES + LAST_TRIES:
+                gain *= ease(vector.length(off_m) / NEAR_M - 1.0)
+            if gain == 0.0:
+                break
             for k in range(3):
-                root_m[k] += LAST_GAIN * inside * off_m[k]
+                root_m[k] += gain * off_m[k]
         quaternion.put(rotations, WAIST, waist)
         quaternion.put(rotations, BACK, back)
         led, sunk_m, bent_rad = hold_ends(

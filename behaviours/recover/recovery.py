@@ -20,12 +20,14 @@ from behaviours.settle import feet as foot_plan
 from behaviours.settle.seams import shown
 from behaviours.settle.sources import choose_first_ways, choose_hand_ways
 from behaviours.timing import TICK_S, whole_ticks
-from engine.body import footing, support
+from engine.body import footing
 from engine.body.kinematics import com_of, joints_of
 from engine.body.skeleton import ANKLES, Pose
 from engine.maths import quaternion, vector
 
 JOLT_MPS = 1.0  # that a pelvis changes its velocity by from one tick to the next: 12 g
+# a foot that stands moves this much in a recording
+STAYS_M, STAYS_RAD = 0.015, math.radians(6.0)
 
 
 def return_blend_ticks(world) -> float:
@@ -102,7 +104,7 @@ def plan_return(world, row: int, tick: int, begins: float) -> None:
     b.from_root_m[row], b.from_rotations[row] = sustained
     b.to_root_m[row], b.to_rotations[row] = back
     b.since[row], b.ticks[row], b.support[row] = round(begins), return_blend_ticks(world), support_side
-    b.lead_s[row] = lead_s(world, row, support_side)
+    b.lead_s[row] = lead_s(world, row, support_side, foot_plan.footing_of(body, back, support_side))
     for side in range(2):
         start, end = foot_plan.planned(f, row, side), foot_plan.footing_of(body, back, side)
         since, ticks = b.since[row], b.ticks[row]
@@ -120,9 +122,9 @@ def plan_return(world, row: int, tick: int, begins: float) -> None:
     choose_hand_ways(world, row)
 
 
-def lead_s(world, row: int, side: int) -> float:
+def lead_s(world, row: int, side: int, end: foot_plan.Footing) -> float:
     """How much of the clip is played on the way back, up to the return pose: at most what there is of it since the foot
-    of the side that supports has come down.
+    of the side that supports has come to where it ends, and stands there. One that glides on would slide with it.
 
     Else one would come to rest in the return pose, on one leg perhaps, before the clip goes on.
     """
@@ -133,7 +135,7 @@ def lead_s(world, row: int, side: int) -> float:
     ticks = 0
     while (ticks + 1) * TICK_S <= most_s + 1e-9:
         before_s = back_s - (ticks + 1) * TICK_S
-        if not is_down(world, row, side, before_s) or jolts(world, row, before_s + TICK_S):
+        if not stays(world, row, side, before_s, end) or jolts(world, row, before_s + TICK_S):
             break
         ticks += 1
     return ticks * TICK_S
@@ -145,17 +147,11 @@ def jolts(world, row: int, time_s: float) -> bool:
     return vector.length(vector.subtract(before + after, 2.0 * here)) > JOLT_MPS * TICK_S
 
 
-def is_down(world, row: int, side: int, time_s: float) -> bool:
-    """Whether a foot touches the ground at a clip time, be it with its toes."""
-    body = body_of(world, row)
-    sole_m = support.sole_points(body, *joints_of(body, clip_pose(world, row, time_s)))[side]
-    return bool(sole_m[:, 2].min() < support.CONTACT_M)
-
-
 def stays(world, row: int, side: int, time_s: float, end: foot_plan.Footing) -> bool:
-    """Whether a foot is at a clip time already where it ends."""
+    """Whether a foot is at a clip time already where it ends, but for what a foot that stands moves in a recording."""
     at = foot_plan.footing_of(body_of(world, row), clip_pose(world, row, time_s), side)
-    return foot_plan.as_good_as(at, end, world.assets.settings.balance)
+    near = vector.distance(at.ankle_m, end.ankle_m) < STAYS_M
+    return bool(near and quaternion.angle_between(at.turned, end.turned) < STAYS_RAD)
 
 
 def anchor_clip(world, row: int) -> int:

@@ -180,6 +180,27 @@ def shown_moving(world, velocity_mps, tipped_deg=0.0):
     return p
 
 
+@pytest.mark.parametrize("azimuth_deg", [0.0, 30.0])
+def test_the_foot_that_bears_the_way_back_does_not_glide_with_the_clip(azimuth_deg, library_clip):
+    """This walk's heel is low all through its landing: the foot comes to stand in the last ticks only, and the way back
+    must not begin before."""
+    threat = {
+        "target": "head",
+        "perceived_s": 0.5,
+        "azimuth_deg": azimuth_deg,
+        "elevation_deg": 10.0,
+        "speed_mps": 26.0,
+    }
+    simulation = simulation_of([threat], clip=library_clip("walk"), start_s=0.5, startle=False, duration_s=4.0)
+    for _ in range(simulation.ticks):
+        simulation.step()
+    track = track_of(simulation)
+    back = np.equal(track.phase, Phase.RECOVER_RETURN)
+    side = int(simulation.world[Blend].support[0])
+    ankles_m = joints_of(track.body, track.pose)[0][back, ANKLES[side]]
+    assert np.linalg.norm(np.diff(ankles_m[:, :2], axis=0), axis=1).sum() < 0.03
+
+
 def test_whoever_stands_still_has_not_fallen():
     world = until(Phase.PROTECT).world
     shown_moving(world, (0.0, 0.0, 0.0))

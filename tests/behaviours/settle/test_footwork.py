@@ -120,3 +120,11 @@ def test_a_foot_is_relieved_only_where_standing_is_trouble():
     world[Blend].to_root_m[0, 0] += 0.25
     world[Blend].to_root_m[0, 2] += 0.05
     assert trouble(world, 0, since, 0.0) > 1.0
+
+
+def test_the_com_comes_onto_its_line_where_a_few_tries_leave_it_off(library_clip):
+    """A runner who steps away from a ball from behind: 8.6 mm off before more was tried."""
+    threat = {"target": "torso", "perceived_s": 0.15, "azimuth_deg": 118.36730555154804}
+    threat |= {"elevation_deg": -0.806321043718512, "speed_mps": 26.43703468824387, "size": 0.2581414969163064}
+    track = track_of(run([threat], clip=library_clip("run"), start_s=0.4321052297185702, startle=True))
+    assert com_line_deviation_max_m(track.lines) < 0.005
