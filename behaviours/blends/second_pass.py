@@ -26,7 +26,8 @@ TRIES, LAST_TRIES = 5, 2
 # from two fifths of that to nearly all of it; of either, each try leaves less than a half
 GAIN = 1.5
 LAST_GAIN = 0.7
-# and a few more where it is still off by more than this, whole ones from twice that: nothing sets in all at once
+# and a few more where it is still off by more than this, whole ones from twice that: nothing sets in all at once. None
+# where knees hang on the last frame: there a try more would show
 MORE_TRIES, NEAR_M = 4, 0.002
 # how far the COM is moved along its line for a leg that is too short by one, and how steep a leg counts as plumb
 ALONG_GAIN, PLUMB = 0.4, 0.3
@@ -60,7 +61,7 @@ def balance(body, start, end, weight, goals, ways, knees, root_m, rotations, pos
     inside = 1.0 - (1.0 - min(max(4.0 * weight * (1.0 - weight), 0.0), 1.0)) ** 4
     legs = vector.mix(vector.mix(first, last, weight), legs, inside)
     first_m = (root_m[0], root_m[1], root_m[2])
-    for n in range(TRIES + LAST_TRIES + MORE_TRIES):
+    for n in range(TRIES + LAST_TRIES + (0 if knees.least else MORE_TRIES)):
         com_m = centre_of_mass(body, positions, orientations)
         for side in range(2):
             ahead_m += ALONG_GAIN * sunk_m[side] * towards_foot(line, goals, side, positions)
